@@ -1,0 +1,47 @@
+//! Mitsuba 3 scenes in XML, and the older names of versions 0.5 and 0.6.
+//!
+//! The text becomes a tree of elements with properties; readers take from it what they understand, and what nobody
+//! took is noted as a warning. A dielectric boundary names the media on both sides: a side's medium is its volume
+//! together with that side's index of refraction. Without volume and with index 1 it is the world's.
+
+mod bsdf;
+mod conductor;
+mod element;
+mod emitter;
+mod importer;
+mod indices;
+mod media;
+mod notes;
+mod sensor;
+mod shape;
+mod texture;
+mod transform;
+mod tree;
+mod value;
+
+#[cfg(test)]
+mod tests;
+
+use crate::Result;
+use crate::assets::Assets;
+use crate::own::override_imported;
+use hyaline_scene::SceneDescription;
+use std::path::Path;
+use std::sync::Arc;
+
+/// Reads a scene from its text.
+///
+/// # Errors
+/// The first fault, with its place.
+pub(crate) fn read(
+    text: &str,
+    file: &Arc<str>,
+    base_dir: &Path,
+    overrides: &[(String, String)],
+) -> Result<SceneDescription> {
+    let assets = Assets::new(base_dir);
+    let tree = tree::parse(text, file, &assets)?;
+    let mut scene = importer::Importer::new(&tree, &assets).read()?;
+    override_imported(&mut scene, overrides)?;
+    Ok(scene)
+}

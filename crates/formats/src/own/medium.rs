@@ -1,0 +1,95 @@
+//! `[media.NAME]`: what volumes are made of.
+//!
+//! `ior` is a number (default 1), a name of the catalogue, `{ nd, abbe }`, `{ cauchy = [a, b, c] }` or
+//! `{ sellmeier = { b = [..], c = [..] } }` (micrometres). Absorption is one of `color = { rgb = .., at = "20 cm" }`,
+//! `filter` (per scene unit, above 0 and at most 1) and `sigma_a` (1 / scene unit). `sigma_s` scatters with mean
+//! cosine `g`; `priority` decides where solids overlap.
+
+use super::field::Field;
+use super::table::Table;
+use crate::Result;
+use crate::limits::Limits;
+use hyaline_scene::{Absorption, IndexDescription, MediumDescription, Scattering};
+
+/// Indices of refraction that exist or are worth trying.
+const IOR: Limits = Limits::above_to(0.0, 100.0);
+
+/// Reads a medium; keys that are absent keep what `base` has.
+pub(super) fn read(table: &mut Table<'_>, metres: f64, base: MediumDescription) -> Result<MediumDescription> {
+    let index = table.read("ior", base.index, index)?;
+    let absorption = match table.take_one(&["color", "filter", "sigma_a"])? {
+        None => base.absorption,
+        Some(field) => absorption(field, metres)?,
+    };
+    let old = base.scattering.unwrap_or(Scattering { sigma_s: [0.0; 3], g: 0.0 });
+    let sigma_s = table.read("sigma_s", old.sigma_s, |field| field.color(Limits::NOT_NEGATIVE))?;
+    let g = table.read("g", old.g, |field| field.number_f32(Limits::inside(-1.0, 1.0)))?;
+    let scattering = (sigma_s != [0.0; 3]).then_some(Scattering { sigma_s, g });
+    let priorities = (i64::from(i32::MIN), i64::from(i32::MAX));
+    let priority = table.read("priority", i64::from(base.priority), |f| f.integer(priorities.0, priorities.1))?;
+    Ok(MediumDescription { name: base.name, index, absorption, scattering, priority: priority as i32 })
+}
+
+fn index(field: Field<'_>) -> Result<IndexDescription> {
+    if field.string().is_ok() {
+        return Ok(IndexDescription::Named(field.name()?));
+    }
+    if field.entries().is_err() {
+        return field.number(IOR).map(IndexDescription::Constant).map_err(|error| {
+            error.with_remedy("an index is a number, a name, { nd, abbe }, { cauchy } or { sellmeier }")
+        });
+    }
+    let mut table = field.table("ior")?;
+    let form = table.take_one(&["nd", "cauchy", "sellmeier"])?;
+    let abbe = table.take("abbe");
+    table.finish()?;
+    let Some(form) = form else {
+        return Err(field.error("`ior` needs `nd` and `abbe`, `cauchy` or `sellmeier`"));
+    };
+    if let (Some(abbe), true) = (abbe, form.key != "nd") {
+        return Err(abbe.error("`abbe` goes with `nd` only"));
+    }
+    match (form.key, abbe) {
+        ("nd", None) => Err(form.error("`nd` needs `abbe`; for an index without dispersion write ior = 1.5")),
+        ("nd", Some(abbe)) => Ok(IndexDescription::Abbe { nd: form.number(IOR)?, abbe: abbe.number(Limits::POSITIVE)? }),
+        ("cauchy", _) => cauchy(form),
+        _ => sellmeier(form),
+    }
+}
+
+fn cauchy(field: Field<'_>) -> Result<IndexDescription> {
+    let terms = field.items()?;
+    if !(1..=3).contains(&terms.len()) {
+        return Err(field.error(format!("`cauchy` must be [a, b] or [a, b, c], not {} numbers", terms.len())));
+    }
+    let term = |i: usize| terms.get(i).map_or(Ok(0.0), |term| term.number(Limits::between(-100.0, 100.0)));
+    Ok(IndexDescription::Cauchy { a: terms[0].number(IOR)?, b: term(1)?, c: term(2)? })
+}
+
+fn sellmeier(field: Field<'_>) -> Result<IndexDescription> {
+    let mut table = field.table("sellmeier")?;
+    let number = |item: Field<'_>| item.number(Limits::between(-1e6, 1e6));
+    let b = table.require("b", "[1.04, 0.23, 1.01]")?.array(number)?;
+    let c = table.require("c", "[0.006, 0.02, 103.6]")?.array(number)?;
+    table.finish()?;
+    Ok(IndexDescription::Sellmeier { b, c })
+}
+
+fn absorption(field: Field<'_>, metres: f64) -> Result<Absorption> {
+    let remedy = "a channel that lets nothing through is best written as a small number, such as 0.001";
+    match field.key {
+        "filter" => {
+            let filter = field.color(Limits::TRANSMITTANCE).map_err(|error| error.with_remedy(remedy))?;
+            Ok(Absorption::Filter(filter))
+        }
+        "sigma_a" => Ok(Absorption::SigmaA(field.color(Limits::NOT_NEGATIVE)?)),
+        _ => {
+            let mut table = field.table("color of a medium: { rgb, at }")?;
+            let rgb = table.require("rgb", "[0.8, 0.95, 1]")?;
+            let distance = table.require("at", "\"10 cm\"")?.length(metres, Limits::POSITIVE)?;
+            table.finish()?;
+            let color = rgb.color(Limits::TRANSMITTANCE).map_err(|error| error.with_remedy(remedy))?;
+            Ok(Absorption::ColorAt { color, distance })
+        }
+    }
+}

@@ -1,0 +1,42 @@
+//! `[settings]`: how to render.
+//!
+//! `integrator` (whitted, path, photon-map, merging, debug), `passes`, `seed`, `sampler` (sobol, independent),
+//! `min_weight`, `max_depth`, `light_samples`. Each has a default that the renderer chooses.
+
+use super::table::Table;
+use crate::Result;
+use crate::limits::Limits;
+use hyaline_scene::{SamplerKind, Settings};
+
+const INTEGRATORS: [(&str, &str); 5] = [
+    ("whitted", "whitted"),
+    ("path", "path"),
+    ("photon-map", "photon-map"),
+    ("merging", "merging"),
+    ("debug", "debug"),
+];
+
+/// Changes `settings` to what the table says.
+pub(super) fn read(mut table: Table<'_>, settings: &mut Settings) -> Result<()> {
+    if let Some(name) = table.read_some("integrator", |field| field.choice(&INTEGRATORS))? {
+        settings.integrator = Some(name.to_owned());
+    }
+    if let Some(passes) = table.read_some("passes", |field| field.count(1))? {
+        settings.passes = Some(passes);
+    }
+    if let Some(seed) = table.read_some("seed", |field| field.integer(0, i64::MAX))? {
+        settings.seed = seed as u64;
+    }
+    let samplers = [("sobol", SamplerKind::Sobol), ("independent", SamplerKind::Independent)];
+    settings.sampler = table.read("sampler", settings.sampler, |field| field.choice(&samplers))?;
+    if let Some(weight) = table.read_some("min_weight", |field| field.number_f32(Limits::FRACTION))? {
+        settings.min_weight = Some(weight);
+    }
+    if let Some(depth) = table.read_some("max_depth", |field| field.count(1))? {
+        settings.max_depth = Some(depth);
+    }
+    if let Some(samples) = table.read_some("light_samples", |field| field.count(1))? {
+        settings.light_samples = Some(samples);
+    }
+    table.finish()
+}

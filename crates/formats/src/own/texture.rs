@@ -1,0 +1,102 @@
+//! `[textures.NAME]`: colors that vary over a surface.
+//!
+//! `kind = "image"` with `file` and `encoding` ("srgb" or "linear"; by default what the kind of file implies), or
+//! `kind = "checker"` with `even` and `odd` colors. `scale` (a number or a pair) says how often the texture fits into
+//! one unit of u and v, `degrees` turns it, `offset` moves it, in this order.
+//! In the place of a color, `{ checker = [even, odd], .. }` and `{ image = "FILE", .. }` say the same more briefly.
+
+use super::field::Field;
+use super::scene::Reader;
+use super::table::Table;
+use crate::Result;
+use crate::image::Encoding;
+use crate::limits::Limits;
+use hyaline_math::float;
+use hyaline_scene::{Located, TextureDescription, TextureKind};
+
+/// Texture coordinates unchanged.
+pub(crate) const IDENTITY_UV: [[f32; 3]; 2] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
+
+impl Reader<'_> {
+    /// Reads an entry of `[textures]`.
+    pub(super) fn texture_entry(&mut self, mut table: Table<'_>, name: Located<String>) -> Result<()> {
+        let kind = self.texture_kind(&mut table)?;
+        let uv_transform = uv_transform(&mut table)?;
+        table.finish()?;
+        let texture = TextureDescription { name: name.value, kind, uv_transform };
+        self.scene.textures.push(Located::new(texture, name.source));
+        Ok(())
+    }
+
+    /// What stands in the place of a color as a table: a reference, a checkerboard or an image.
+    pub(super) fn inline_texture(&mut self, field: Field<'_>) -> Result<Located<String>> {
+        let mut table = field.table(format!("`{}`", field.key))?;
+        let Some(form) = table.take_one(&["texture", "checker", "image"])? else {
+            let error = field.error(format!("`{}` as a table needs `texture`, `checker` or `image`", field.key));
+            return Err(error.with_remedy("a plain color is [r, g, b], \"#rrggbb\" or a number"));
+        };
+        let kind = match form.key {
+            "texture" => {
+                table.finish()?;
+                return form.name();
+            }
+            "checker" => {
+                let [even, odd] = form.array(|color| color.color(Limits::FRACTION))?;
+                TextureKind::Checker { even, odd }
+            }
+            _ => {
+                let encoding = table.read_some("encoding", encoding)?;
+                TextureKind::Image(self.assets.image(form.source(), form.string()?, encoding)?)
+            }
+        };
+        let uv_transform = uv_transform(&mut table)?;
+        table.finish()?;
+        let mut name = format!("{} at {}", form.key, field.source());
+        while self.scene.textures.iter().any(|texture| texture.name == name) {
+            name.push('\'');
+        }
+        let name = Located::new(name, field.source().clone());
+        let texture = TextureDescription { name: name.value.clone(), kind, uv_transform };
+        self.scene.textures.push(Located::new(texture, name.source.clone()));
+        Ok(name)
+    }
+
+    fn texture_kind(&self, table: &mut Table<'_>) -> Result<TextureKind> {
+        let kind = table.require("kind", "\"image\"")?;
+        match kind.string()? {
+            "image" => {
+                let file = table.require("file", "\"wood.png\"")?;
+                let encoding = table.read_some("encoding", encoding)?;
+                Ok(TextureKind::Image(self.assets.image(file.source(), file.string()?, encoding)?))
+            }
+            "checker" => {
+                let color = |field: Field<'_>| field.color(Limits::NOT_NEGATIVE);
+                let (even, odd) = (table.read("even", [0.8; 3], color)?, table.read("odd", [0.2; 3], color)?);
+                Ok(TextureKind::Checker { even, odd })
+            }
+            _ => Err(kind.no_such_choice(&["image", "checker"])),
+        }
+    }
+}
+
+/// How the values of an image file are to be taken.
+pub(super) fn encoding(field: Field<'_>) -> Result<Encoding> {
+    field.choice(&[("srgb", Encoding::Srgb), ("linear", Encoding::Linear)])
+}
+
+fn uv_transform(table: &mut Table<'_>) -> Result<[[f32; 3]; 2]> {
+    let limits = Limits::between(-1e6, 1e6);
+    let number = |item: Field<'_>| item.number_f32(limits);
+    let [scale_u, scale_v] = table.read("scale", [1.0; 2], |field| match field.items() {
+        Ok(_) => field.array(number),
+        Err(_) => number(field).map(|scale| [scale; 2]),
+    })?;
+    let angle = table.read("degrees", 0.0, |field| field.angle(limits))?;
+    let [offset_u, offset_v] = table.read("offset", [0.0; 2], |field| field.array(number))?;
+    if (scale_u, scale_v, angle, offset_u, offset_v) == (1.0, 1.0, 0.0, 0.0, 0.0) {
+        return Ok(IDENTITY_UV);
+    }
+    let (sin, cos) = float::f64::sin_cos(angle);
+    let (sin, cos) = (sin as f32, cos as f32);
+    Ok([[cos * scale_u, -sin * scale_v, offset_u], [sin * scale_u, cos * scale_v, offset_v]])
+}

@@ -1,0 +1,29 @@
+//! Bounding volume hierarchies: 8-wide trees of boxes over triangles or items, and how a ray descends them.
+//!
+//! 1. `binary` makes a binary tree of single primitives: obvhs sorts and joins them (PLOC) and improves the result by
+//!    reinsertion.
+//! 2. `collapse` turns it into the cheapest tree of nodes with up to eight children.
+//! 3. `traverse` descends it with one box test for eight children. Box tests and the triangle filter are padded by
+//!    their rounding error, so they may differ between processors and yet never lose a hit; whether a triangle is hit
+//!    is decided by `mesh::triangle` alone.
+
+mod binary;
+mod collapse;
+mod mesh_bvh;
+mod node;
+mod query;
+mod ray;
+mod simd;
+#[cfg(test)]
+mod tests;
+mod traverse;
+
+pub use mesh_bvh::MeshBvh;
+pub use simd::SimdLevel;
+
+pub(crate) use collapse::build;
+pub(crate) use node::Tree;
+pub(crate) use query::{Any, Closest, Every, Sink};
+pub(crate) use ray::{BoxRay, SlabRay};
+pub(crate) use simd::{Lanes, Query, VerifiedLevel};
+pub(crate) use traverse::{Visitor, traverse};

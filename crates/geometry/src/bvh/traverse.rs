@@ -1,0 +1,91 @@
+//! The descent of a ray through a tree, nearest child first.
+
+use super::node::{Child, Node, Tree};
+use super::ray::BoxRay;
+use super::simd::{Lanes, Nears, Stack, prefetch};
+use std::ops::ControlFlow;
+
+/// What to do at the leaves.
+pub(crate) trait Visitor {
+    /// Whether near children should come first.
+    const IS_ORDERED: bool;
+    /// Boxes that begin beyond this distance are skipped; it may shrink.
+    fn limit(&self) -> f32;
+    /// Begins to load a leaf that will be visited soon.
+    fn prefetch(&self, index: usize);
+    /// Visits a leaf; `Break` ends the descent.
+    fn leaf(&mut self, index: usize) -> ControlFlow<()>;
+}
+
+/// Visits the leaves whose boxes the ray meets between its `t_min`, or 0 if that is negative, and the limit.
+#[inline(always)]
+pub(crate) fn traverse<L: Lanes, V: Visitor>(lanes: L, tree: &Tree, ray: &BoxRay, visitor: &mut V) -> ControlFlow<()> {
+    let Some(mut current) = tree.root else {
+        return ControlFlow::Continue(());
+    };
+    let boxes = lanes.prepare_boxes(ray);
+    let mut stack = Stack::new();
+    loop {
+        if current.is_leaf() {
+            visitor.leaf(current.index())?;
+        } else {
+            let node = &tree.nodes[current.index()];
+            let (nears, hits) = lanes.hit_boxes(&boxes, node, visitor.limit());
+            push_children(tree, visitor, &mut stack, node, &nears, hits);
+        }
+        loop {
+            match stack.pop() {
+                None => return ControlFlow::Continue(()),
+                Some(entry) if near_of(entry) <= visitor.limit() => {
+                    current = child_of(entry);
+                    break;
+                }
+                Some(_) => {}
+            }
+        }
+    }
+}
+
+/// Puts the children that were hit on the stack, the nearest on top.
+#[inline(always)]
+fn push_children<V: Visitor>(
+    tree: &Tree,
+    visitor: &V,
+    stack: &mut Stack,
+    node: &Node,
+    nears: &Nears,
+    mut hits: u32,
+) {
+    let start = stack.len();
+    while hits != 0 {
+        let slot = hits.trailing_zeros() as usize & 7;
+        hits &= hits - 1;
+        let child = node.children[slot];
+        // Most of the time is spent waiting for memory; this lets the children wait together.
+        if child.is_leaf() {
+            visitor.prefetch(child.index());
+        } else if let Some(node) = tree.nodes.get(child.index()) {
+            prefetch(node);
+        }
+        stack.push(entry(nears.0[slot], child));
+        if V::IS_ORDERED {
+            stack.sink_last(start);
+        }
+    }
+}
+
+/// A stack entry; a later one in the order of integers is a farther one, since distances are not negative.
+#[inline(always)]
+fn entry(near: f32, child: Child) -> u64 {
+    u64::from(near.to_bits()) << 32 | u64::from(child.bits())
+}
+
+#[inline(always)]
+fn near_of(entry: u64) -> f32 {
+    f32::from_bits((entry >> 32) as u32)
+}
+
+#[inline(always)]
+fn child_of(entry: u64) -> Child {
+    Child::from_bits(entry as u32)
+}

@@ -1,0 +1,73 @@
+//! The same passes give the same bytes: in one go or in parts, on any number of threads, in crops.
+
+use crate::support::{Workshop, read_pfm};
+
+#[test]
+fn passes_in_parts_merged_in_any_order_are_the_whole() {
+    let workshop = Workshop::new();
+    workshop.succeed("scene.toml --passes 0..16 --film whole.film -o whole.pfm -o whole.png");
+    for (name, passes) in [("a", "0..5"), ("b", "5..6"), ("c", "6..16")] {
+        workshop.succeed(&format!("scene.toml --passes {passes} --film {name}.film -o {name}.png"));
+    }
+    for order in ["a b c", "c a b", "b c a"] {
+        let films: Vec<String> = order.split(' ').map(|name| format!("{name}.film")).collect();
+        workshop.succeed(&format!("merge {} -o merged.film -o merged.pfm", films.join(" ")));
+        assert_eq!(workshop.bytes("merged.film"), workshop.bytes("whole.film"), "{order}");
+        assert_eq!(workshop.bytes("merged.pfm"), workshop.bytes("whole.pfm"), "{order}");
+    }
+}
+
+#[test]
+fn a_resumed_film_is_the_whole() {
+    let workshop = Workshop::new();
+    workshop.succeed("scene.toml --spp 16 --film whole.film -o whole.pfm");
+    workshop.succeed("scene.toml --spp 4 --film part.film -o part.png");
+    workshop.succeed("scene.toml --passes 9..12 --resume part.film -o part.png");
+    let run = workshop.succeed("scene.toml --spp 16 --resume part.film -o part.pfm --json");
+    assert_eq!(run.json()["passes"], 16);
+    assert_eq!(workshop.bytes("part.film"), workshop.bytes("whole.film"));
+    assert_eq!(workshop.bytes("part.pfm"), workshop.bytes("whole.pfm"));
+}
+
+#[test]
+fn threads_and_time_limits_change_no_bit() {
+    let workshop = Workshop::new();
+    for threads in [1, 2, 7] {
+        workshop.succeed(&format!(
+            "scene.toml --spp 9 --threads {threads} --film {threads}.film -o {threads}.pfm"
+        ));
+    }
+    assert_eq!(workshop.bytes("1.film"), workshop.bytes("2.film"));
+    assert_eq!(workshop.bytes("1.film"), workshop.bytes("7.film"));
+    assert_eq!(workshop.bytes("1.pfm"), workshop.bytes("7.pfm"));
+
+    let report = workshop.succeed("scene.toml --time 300ms --film timed.film -o timed.pfm --json").json();
+    workshop
+        .succeed(&format!("scene.toml --passes 0..{} --film counted.film -o counted.pfm", report["passes"]));
+    assert_eq!(workshop.bytes("timed.film"), workshop.bytes("counted.film"));
+}
+
+#[test]
+fn a_crop_is_the_whole_pictures_pixels() {
+    let workshop = Workshop::new();
+    for integrator in ["path", "whitted"] {
+        workshop.succeed(&format!("scene.toml --spp 3 --integrator {integrator} -o whole.pfm"));
+        workshop
+            .succeed(&format!("scene.toml --spp 3 --integrator {integrator} --crop 3,5,21,8 -o crop.pfm"));
+        let (width, _, whole) = read_pfm(&workshop.path("whole.pfm"));
+        let (crop_width, crop_height, crop) = read_pfm(&workshop.path("crop.pfm"));
+        assert_eq!((crop_width, crop_height), (18, 3));
+        let expected: Vec<[f32; 3]> =
+            (5..8).flat_map(|y| whole[y * width + 3..y * width + 21].to_vec()).collect();
+        assert_eq!(crop, expected, "{integrator}");
+        assert!(crop.iter().flatten().any(|value| *value > 0.0));
+    }
+}
+
+#[test]
+fn another_seed_is_another_picture() {
+    let workshop = Workshop::new();
+    workshop.succeed("scene.toml --spp 2 --seed 1 -o a.pfm");
+    workshop.succeed("scene.toml --spp 2 --seed 2 -o b.pfm");
+    assert_ne!(workshop.bytes("a.pfm"), workshop.bytes("b.pfm"));
+}

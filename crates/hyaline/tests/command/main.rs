@@ -1,0 +1,8 @@
+//! The command as people meet it: run on small scenes in folders of their own.
+
+mod determinism;
+mod films;
+#[cfg(unix)]
+mod interruption;
+mod support;
+mod usage;

@@ -1,0 +1,246 @@
+//! Suffern's recursive ray tracing: both branches at every transparent surface, direct light at every other one.
+//!
+//! 1. At a singular surface trace the reflected and the transmitted ray; each is filtered by the media on its way.
+//! 2. At a matte or Phong surface add the light of every lamp by shadow rays, soft for lamps with area, and the
+//!    ambient term. Glass throws an opaque shadow here: that is the model, `path` does it right.
+//! 3. At a glossy surface trace one ray drawn from its lobe, and add the highlights of lamps too small to be hit.
+//! 4. A branch ends when the product of its weights falls below `min_weight`, or at the depth limit.
+//!
+//! Source: Whitted, CACM 23(6), 1980; Suffern, Ray Tracing from the Ground Up, ch. 24-28.
+
+use super::{Integrator, Pass, Prepared, RenderSettings, View};
+use crate::direct::{self, DirectLight};
+use crate::first_hit;
+use crate::stats::Stats;
+use crate::walk::{self, Event, Vertex};
+use hyaline_film::{PixelSample, Rect};
+use hyaline_math::{Ray, Vec2, Vec3, offset_origin};
+use hyaline_sampling::Sampler;
+use hyaline_scattering::{MediumSet, Transport};
+use hyaline_spectrum::Spectrum;
+use hyaline_world::{World, mask};
+use std::sync::atomic::AtomicBool;
+
+/// Depth of the recursion where the settings name none.
+const DEFAULT_DEPTH: u32 = 64;
+
+/// Recursive ray tracing.
+pub struct WhittedIntegrator;
+
+impl Integrator for WhittedIntegrator {
+    fn name(&self) -> &'static str {
+        "whitted"
+    }
+
+    fn prepare<'w>(
+        &self,
+        world: &'w World,
+        view: &View,
+        settings: &RenderSettings,
+        _cancel: &AtomicBool,
+        _stats: &mut Stats,
+    ) -> Box<dyn Prepared + 'w> {
+        Box::new(PreparedWhitted { world, view: *view, settings: *settings })
+    }
+}
+
+struct PreparedWhitted<'w> {
+    world: &'w World,
+    view: View,
+    settings: RenderSettings,
+}
+
+impl Prepared for PreparedWhitted<'_> {
+    fn begin_pass<'a>(&'a self, pass: u32, _stats: &mut Stats) -> Box<dyn Pass + 'a> {
+        Box::new(WhittedPass { prepared: self, pass })
+    }
+}
+
+struct WhittedPass<'a> {
+    prepared: &'a PreparedWhitted<'a>,
+    pass: u32,
+}
+
+impl Pass for WhittedPass<'_> {
+    fn render_tile(&self, tile: Rect, samples: &mut [PixelSample], stats: &mut Stats) {
+        let PreparedWhitted { world, view, settings } = self.prepared;
+        for ((x, y), sample) in tile.pixels().zip(samples) {
+            let mut sampler = Sampler::new(settings.sampler, settings.seed, (x, y), self.pass);
+            let film = Vec2::new(x as f32 + 0.5, y as f32 + 0.5) + view.filter.sample(sampler.next_2d());
+            let lens = sampler.next_2d();
+            *sample = PixelSample::default();
+            if let Some(ray) = world.cameras[view.camera].ray(film, lens) {
+                let mut tracer = Tracer { world, settings, stats, first: Some(sample) };
+                let branch = Branch { weight: 1.0, depth: 0, visible: mask::CAMERA };
+                let radiance = tracer.trace(ray, world.camera_media[view.camera].clone(), branch, sampler);
+                sample.beauty = radiance.to_rgb();
+            }
+        }
+    }
+}
+
+/// How far a branch has come.
+#[derive(Clone, Copy)]
+struct Branch {
+    /// Product of the largest lanes of all factors so far.
+    weight: f32,
+    /// Surfaces so far.
+    depth: u32,
+    /// Mask of the items that its ray sees.
+    visible: u8,
+}
+
+struct Tracer<'a> {
+    world: &'a World,
+    settings: &'a RenderSettings,
+    stats: &'a mut Stats,
+    first: Option<&'a mut PixelSample>,
+}
+
+impl Tracer<'_> {
+    /// Radiance that arrives along `ray`, which starts inside `set`.
+    fn trace(&mut self, ray: Ray, mut set: MediumSet, branch: Branch, sampler: Sampler) -> Spectrum {
+        let vertex = match walk::advance(self.world, &ray, branch.visible, &mut set, self.stats) {
+            Event::Sky { transmittance } => {
+                return transmittance * direct::sky_radiance(self.world, &ray, None, branch.visible);
+            }
+            Event::Surface(vertex) => vertex,
+        };
+        if let Some(sample) = self.first.take() {
+            first_hit::record(sample, &vertex, &ray);
+        }
+        let weight = branch.weight * vertex.transmittance.max_lane(self.world.lanes);
+        vertex.transmittance * self.shade(&vertex, &ray, &set, Branch { weight, ..branch }, sampler)
+    }
+
+    /// Radiance that leaves `vertex` against `ray`.
+    fn shade(
+        &mut self,
+        vertex: &Vertex,
+        ray: &Ray,
+        set: &MediumSet,
+        branch: Branch,
+        mut sampler: Sampler,
+    ) -> Spectrum {
+        let wo = -ray.direction;
+        let emitted = match vertex.light {
+            Some(index) => self.world.lights.get(index as usize).radiance_from(&vertex.hit, wo),
+            None => Spectrum::ZERO,
+        };
+        let reflected = if vertex.bsdf.is_delta() {
+            self.local_term(vertex, wo, set, &mut sampler)
+                + self.both_branches(vertex, wo, set, ray.time, branch, &mut sampler)
+        } else if vertex.bsdf.lobe_width() >= 1.0 {
+            self.world.ambient * vertex.bsdf.albedo_estimate() + self.all_lights(vertex, wo, set, &mut sampler)
+        } else {
+            self.small_lights(vertex, wo, set, &mut sampler)
+                + self.one_glossy_ray(vertex, wo, set, ray.time, branch, &mut sampler)
+        };
+        emitted + reflected
+    }
+
+    /// Reflected and transmitted ray of a singular surface.
+    fn both_branches(
+        &mut self,
+        vertex: &Vertex,
+        wo: Vec3,
+        set: &MediumSet,
+        time: f32,
+        branch: Branch,
+        sampler: &mut Sampler,
+    ) -> Spectrum {
+        let mut result = Spectrum::ZERO;
+        for (index, way) in vertex.bsdf.branches(wo).into_iter().enumerate() {
+            let Some(way) = way else { continue };
+            let fork = sampler.fork(index as u32);
+            result += self.follow(vertex, way.wi, way.weight, way.transmits, way.eta_scale, set, time, branch, fork);
+        }
+        result
+    }
+
+    /// One ray drawn from a glossy lobe.
+    fn one_glossy_ray(
+        &mut self,
+        vertex: &Vertex,
+        wo: Vec3,
+        set: &MediumSet,
+        time: f32,
+        branch: Branch,
+        sampler: &mut Sampler,
+    ) -> Spectrum {
+        let (u_lobe, u) = (sampler.next_1d(), sampler.next_2d());
+        let Some(s) = vertex.bsdf.sample(wo, u_lobe, u, Transport::Radiance) else {
+            return Spectrum::ZERO;
+        };
+        let fork = sampler.fork(0);
+        self.follow(vertex, s.wi, s.weight, s.transmits, s.eta_scale, set, time, branch, fork)
+    }
+
+    /// Follows one way on from a vertex, unless it counts too little.
+    fn follow(
+        &mut self,
+        vertex: &Vertex,
+        wi: Vec3,
+        factor: Spectrum,
+        transmits: bool,
+        eta_scale: f32,
+        set: &MediumSet,
+        time: f32,
+        branch: Branch,
+        sampler: Sampler,
+    ) -> Spectrum {
+        // The n² factor says how radiance changes, not how much the branch counts.
+        let weight = branch.weight * factor.max_lane(self.world.lanes) / eta_scale;
+        let depth = branch.depth + 1;
+        if factor.is_zero() {
+            return Spectrum::ZERO;
+        }
+        if weight < self.settings.min_weight || depth > self.settings.max_depth.unwrap_or(DEFAULT_DEPTH) {
+            self.stats.branches_cut += 1;
+            return Spectrum::ZERO;
+        }
+        let mut set = set.clone();
+        if transmits {
+            vertex.commit(self.world, &mut set);
+        }
+        let origin = offset_origin(vertex.hit.p, vertex.hit.p_error, vertex.hit.ng, wi);
+        let ray = Ray { time, ..Ray::new(origin, wi) };
+        factor * self.trace(ray, set, Branch { weight, depth, visible: mask::PATH }, sampler)
+    }
+
+    /// Direct light of every lamp.
+    fn all_lights(&mut self, vertex: &Vertex, wo: Vec3, set: &MediumSet, sampler: &mut Sampler) -> Spectrum {
+        self.lights_where(vertex, wo, set, sampler, |_| true)
+    }
+
+    /// Direct light of the lamps that no ray can hit.
+    fn small_lights(&mut self, vertex: &Vertex, wo: Vec3, set: &MediumSet, sampler: &mut Sampler) -> Spectrum {
+        self.lights_where(vertex, wo, set, sampler, direct::is_delta)
+    }
+
+    fn lights_where(
+        &mut self,
+        vertex: &Vertex,
+        wo: Vec3,
+        set: &MediumSet,
+        sampler: &mut Sampler,
+        is_meant: impl Fn(&hyaline_world::light::Light) -> bool,
+    ) -> Spectrum {
+        let direct = DirectLight { world: self.world, vertex, wo, set, use_mis: false };
+        let mut result = Spectrum::ZERO;
+        for light in self.world.lights.lights().iter().filter(|light| is_meant(light)) {
+            let count = if direct::is_delta(light) { 1 } else { self.settings.light_samples };
+            for _ in 0..count {
+                result += direct.from_light(light, 1.0, sampler.next_2d(), self.stats) / count as f32;
+            }
+        }
+        result
+    }
+
+    /// Suffern's local term of a transparent material: diffuse and highlights of lamps on top of the two branches.
+    fn local_term(&mut self, vertex: &Vertex, wo: Vec3, set: &MediumSet, sampler: &mut Sampler) -> Spectrum {
+        let Some(bsdf) = self.world.local_term(&vertex.hit, wo) else { return Spectrum::ZERO };
+        let local = vertex.with_bsdf(bsdf);
+        self.world.ambient * local.bsdf.albedo_estimate() + self.all_lights(&local, wo, set, sampler)
+    }
+}

@@ -1,0 +1,11 @@
+//! Integrators: how light is carried from lights to the camera.
+
+pub mod direct;
+pub mod first_hit;
+pub mod integrator;
+pub mod shadow;
+pub mod stats;
+pub mod walk;
+
+pub use integrator::{Integrator, Pass, Prepared, RenderSettings, View};
+pub use stats::Stats;

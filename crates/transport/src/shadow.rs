@@ -1,0 +1,61 @@
+//! How much light gets from one point to another in a straight line.
+
+use crate::stats::Stats;
+use hyaline_geometry::SurfaceHit;
+use hyaline_math::{Ray, Vec3, offset_origin};
+use hyaline_scattering::MediumSet;
+use hyaline_spectrum::Spectrum;
+use hyaline_world::light::DirectSample;
+use hyaline_world::{World, mask};
+
+/// A shadow ray stops this fraction short of its target: the rounding of the distance itself.
+const SHORTENING: f32 = 4.0 * f32::EPSILON;
+
+/// The ray from a surface towards a sampled point of a light, ending just before it.
+pub fn ray_to_light(from: &SurfaceHit, sample: &DirectSample, time: f32) -> Ray {
+    let origin = offset_origin(from.p, from.p_error, from.ng, sample.wi);
+    let Some(target) = &sample.target else {
+        return Ray { time, ..Ray::new(origin, sample.wi) };
+    };
+    let end = offset_origin(target.p, target.p_error, target.n, -sample.wi);
+    let way: Vec3 = end - origin;
+    let length = way.length();
+    Ray { time, t_max: length * (1.0 - SHORTENING), ..Ray::new(origin, way / length) }
+}
+
+/// Fraction of light that passes along `ray` up to its `t_max`; `set` holds where the ray starts.
+///
+/// Boundaries that reflect or bend stop it: light through them does not come straight.
+pub fn transmittance(world: &World, ray: &Ray, set: &MediumSet, stats: &mut Stats) -> Spectrum {
+    stats.rays += 1;
+    if world.geometry.occluded(ray, mask::BLOCKS) {
+        return Spectrum::ZERO;
+    }
+    if !world.has_permeable {
+        return world.media[set.active().index()].transmittance(ray.t_max);
+    }
+    through_boundaries(world, *ray, set.clone(), stats)
+}
+
+/// The same, crossing what can be crossed straight.
+fn through_boundaries(world: &World, mut ray: Ray, mut set: MediumSet, stats: &mut Stats) -> Spectrum {
+    let mut result = Spectrum::ONE;
+    loop {
+        stats.rays += 1;
+        let medium = &world.media[set.active().index()];
+        let Some(candidate) = world.geometry.closest(&ray, mask::PATH) else {
+            return result * medium.transmittance(ray.t_max);
+        };
+        let (hit, encounter) = 
+            world.meet(&ray, &candidate, &mut set, mask::PATH, &mut |object| stats.count_never_entered(object));
+        result *= medium.transmittance(hit.t);
+        let Some(straight) = world.straight_through(&hit, &encounter) else { return Spectrum::ZERO };
+        result *= straight;
+        if result.is_zero() {
+            return result;
+        }
+        encounter.commit(world, &mut set);
+        ray.origin = offset_origin(hit.p, hit.p_error, hit.ng, ray.direction);
+        ray.t_max -= hit.t;
+    }
+}

@@ -1,0 +1,124 @@
+//! What a camera or light is in, found by looking around.
+//!
+//! Rays in fixed directions go straight through every boundary and stop at the first opaque surface. For each solid a
+//! ray votes by how often it leaves the solid before it has entered it; the majority counts. The base medium is
+//! told by the first interface met: it faces the place with one of its sides. Where nothing tells, the declared medium
+//! holds. Parity to infinity is never asked: one hole in a mesh would turn everything inside out.
+
+use crate::World;
+use crate::world::mask;
+use hyaline_math::{Ray, Vec3, float, offset_origin};
+use hyaline_scattering::{BoundaryKind, MediumId, MediumSet, ObjectId};
+use hyaline_scene::{Note, Source};
+use std::collections::BTreeMap;
+
+/// Rays sent out; odd, so that votes seldom tie.
+const RAY_COUNT: usize = 61;
+
+/// Surfaces that one ray looks at, at most.
+const LONGEST_WALK: usize = 256;
+
+/// The medium set at `place`.
+///
+/// - `declared`: base medium where no interface tells another.
+/// - `name`: what warnings call the thing at `place`.
+pub(super) fn locate(
+    world: &World,
+    place: Vec3,
+    declared: MediumId,
+    name: &str,
+    source: &Source,
+    notes: &mut Vec<Note>,
+) -> MediumSet {
+    let mut set = MediumSet::new(declared);
+    if (0..world.object_names.len() as u32).all(|o| world.boundaries.of(ObjectId(o)) == BoundaryKind::None) {
+        return set;
+    }
+    let views: Vec<View> = (0..RAY_COUNT).map(|i| look(world, place, direction(i))).collect();
+    let bases = count(views.iter().filter_map(|view| view.base));
+    if let Some((&base, &votes)) = bases.iter().max_by_key(|&(_, &votes)| votes) {
+        let total: usize = bases.values().sum();
+        warn_if_split(name, "which medium it is in", votes, total, source, notes);
+        set = MediumSet::new(base);
+    }
+    let solids: Vec<ObjectId> = {
+        let seen: BTreeMap<ObjectId, ()> = views.iter().flat_map(|v| v.depths.keys().map(|&o| (o, ()))).collect();
+        seen.into_keys().collect()
+    };
+    for solid in solids {
+        let depths = count(views.iter().filter_map(|view| view.depths.get(&solid).copied()));
+        let total: usize = depths.values().sum();
+        if let Some((&depth, &votes)) = depths.iter().max_by_key(|&(_, &votes)| votes) {
+            let what = format!("whether it is inside '{}'", world.object_names[solid.0 as usize]);
+            warn_if_split(name, &what, votes, total, source, notes);
+            for _ in 0..depth {
+                set.enter(&world.boundaries, solid);
+            }
+        }
+    }
+    set
+}
+
+/// What one ray saw.
+#[derive(Default)]
+struct View {
+    /// The medium on the facing side of the first interface.
+    base: Option<MediumId>,
+    /// For each solid seen: how many of its shells the place lies in.
+    depths: BTreeMap<ObjectId, u32>,
+}
+
+fn look(world: &World, place: Vec3, direction: Vec3) -> View {
+    let mut view = View::default();
+    let mut net: BTreeMap<ObjectId, i32> = BTreeMap::new();
+    let mut ray = Ray::new(place, direction);
+    for _ in 0..LONGEST_WALK {
+        let Some(candidate) = world.geometry.closest(&ray, mask::PATH) else { break };
+        let hit = world.geometry.surface(&ray, &candidate);
+        let object = world.items[hit.item as usize].object;
+        let leaves = hit.ng.dot(direction) > 0.0;
+        match world.boundaries.of(object) {
+            BoundaryKind::None if !world.is_thin(&hit) => break,
+            BoundaryKind::None => {}
+            BoundaryKind::Solid { .. } => {
+                let net = net.entry(object).or_default();
+                *net += if leaves { 1 } else { -1 };
+                let depth = view.depths.entry(object).or_default();
+                *depth = (*depth).max((*net).max(0) as u32);
+            }
+            BoundaryKind::Interface { outside, inside } => {
+                view.base.get_or_insert(if leaves { inside } else { outside });
+            }
+        }
+        ray.origin = offset_origin(hit.p, hit.p_error, hit.ng, direction);
+    }
+    view
+}
+
+fn count<T: Ord>(votes: impl Iterator<Item = T>) -> BTreeMap<T, usize> {
+    votes.fold(BTreeMap::new(), |mut counts, vote| {
+        *counts.entry(vote).or_default() += 1;
+        counts
+    })
+}
+
+/// Warns where more than one ray in five disagrees.
+fn warn_if_split(name: &str, what: &str, votes: usize, total: usize, source: &Source, notes: &mut Vec<Note>) {
+    if votes * 5 < total * 4 {
+        let message = format!(
+            "{name}: {what} is in doubt ({votes} of {total} directions agree); close the meshes about it or name its medium"
+        );
+        notes.push(Note::warning(source, message));
+    }
+}
+
+/// Direction `i` of an even spread over the sphere.
+///
+/// Source: Swinbank & Purser, Fibonacci grids, Q. J. R. Meteorol. Soc. 132, 2006.
+fn direction(i: usize) -> Vec3 {
+    const GOLDEN_ANGLE: f32 = 2.399_963_2;
+    let y = 1.0 - (2.0 * i as f32 + 1.0) / RAY_COUNT as f32;
+    let radius = (1.0 - y * y).max(0.0).sqrt();
+    let (sin, cos) = float::sin_cos(GOLDEN_ANGLE * i as f32 + 0.3);
+    Vec3::new(radius * cos, y, radius * sin)
+}

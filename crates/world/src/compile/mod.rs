@@ -1,0 +1,115 @@
+//! From description to world: names become indices, shapes become geometry, colors become lanes.
+//!
+//! 1. Media, textures and materials, each by name.
+//! 2. Objects: their shapes become items of the geometry, their boundaries go to the table of boundaries, what shines
+//!    becomes a light.
+//! 3. The hierarchy over everything; which items may coincide with others.
+//! 4. Lights without a shape, cameras.
+//! 5. Where each camera is: found by looking around.
+
+mod cameras;
+mod coincidence;
+mod lights;
+mod locate;
+mod materials;
+mod media;
+mod names;
+mod objects;
+mod shapes;
+
+use crate::World;
+use crate::light::LightSet;
+use crate::texture::Texture;
+use hyaline_geometry::Aggregate;
+use hyaline_scattering::{Boundaries, Medium, MediumId};
+use hyaline_scene::{Located, Note, SceneDescription, SceneError};
+use hyaline_spectrum::Spectrum;
+use names::Names;
+
+/// Lanes in `rgb` mode.
+const RGB_LANES: usize = 3;
+
+/// Everything that is looked up by name while compiling.
+struct Library<'a> {
+    description: &'a SceneDescription,
+    media: Names<'a>,
+    materials: Names<'a>,
+    textures: Names<'a>,
+    objects: Names<'a>,
+}
+
+impl<'a> Library<'a> {
+    fn new(description: &'a SceneDescription) -> Self {
+        Self {
+            description,
+            media: Names::new("medium", description.media.iter().map(|m| m.name.as_str())),
+            materials: Names::new("material", description.materials.iter().map(|m| m.name.as_str())),
+            textures: Names::new("texture", description.textures.iter().map(|t| t.name.as_str())),
+            objects: Names::new("object", description.objects.iter().map(|o| o.name.as_str())),
+        }
+    }
+
+    /// The id of a medium. The world's vacuum is 0, so the described media count from 1.
+    fn medium(&self, name: &Located<String>) -> Result<MediumId, SceneError> {
+        Ok(MediumId(self.media.find(name)? as u32 + 1))
+    }
+
+    /// The id of the medium that fills the world.
+    fn surrounding(&self) -> Result<MediumId, SceneError> {
+        self.medium_or(&self.description.surrounding, MediumId(0))
+    }
+
+    fn medium_or(&self, name: &Option<Located<String>>, default: MediumId) -> Result<MediumId, SceneError> {
+        name.as_ref().map_or(Ok(default), |name| self.medium(name))
+    }
+}
+
+impl World {
+    /// Compiles a description: resolves names, builds geometry and hierarchies, places lights and cameras.
+    ///
+    /// Returns the world and what is doubtful about it.
+    ///
+    /// # Errors
+    /// A name that nothing bears, a shape that cannot be, a scene without a camera or without anything to see.
+    pub fn compile(description: &SceneDescription) -> Result<(World, Vec<Note>), SceneError> {
+        let mut notes = Vec::new();
+        let library = Library::new(description);
+        let mut media = vec![Medium::VACUUM];
+        for medium in &description.media {
+            media.push(media::compile(medium, &mut notes)?);
+        }
+        let textures: Vec<Texture> = description.textures.iter().map(|t| Texture::new(&t.value)).collect();
+        let materials = materials::compile_all(&library)?;
+        let mut parts = objects::compile_all(&library, &materials, &mut notes)?;
+
+        let bounds = parts.bounds();
+        let shapeless = lights::compile_all(&library, &textures, bounds, parts.lights.len())?;
+        parts.lights.extend(shapeless.lights);
+        let has_permeable = coincidence::mark(&mut parts, &media, &materials, library.surrounding()?);
+        let mut world = World {
+            geometry: Aggregate::build(parts.geometry),
+            items: parts.items,
+            object_names: parts.names,
+            object_materials: parts.object_materials,
+            boundaries: Boundaries::new(parts.boundaries),
+            media,
+            materials,
+            textures,
+            lights: LightSet::new(parts.lights, RGB_LANES),
+            camera_sky: shapeless.camera_sky,
+            ambient: shapeless.ambient,
+            cameras: Vec::new(),
+            camera_names: Vec::new(),
+            camera_media: Vec::new(),
+            has_permeable,
+            lanes: RGB_LANES,
+        };
+        cameras::compile_all(&library, &mut world, &mut notes)?;
+        Ok((world, notes))
+    }
+}
+
+/// A color as light or factor in lanes.
+fn lanes(color: hyaline_scene::Rgb) -> Spectrum {
+    Spectrum::from_rgb(color)
+}

@@ -1,0 +1,12 @@
+//! The compiled scene: immutable, indexed, shared by all threads.
+
+pub mod camera;
+pub mod compile;
+pub mod light;
+pub mod material;
+mod meeting;
+pub mod texture;
+mod world;
+
+pub use meeting::Encounter;
+pub use world::{ItemInfo, World, mask};

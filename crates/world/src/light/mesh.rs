@@ -1,0 +1,51 @@
+//! A mesh that shines, sampled by area.
+
+use super::surface::{ShiningSides, SurfaceEmission};
+use super::{DirectSample, EmissionPdf, EmissionSample};
+use hyaline_geometry::SurfaceHit;
+use hyaline_geometry::mesh::MeshSampler;
+use hyaline_math::{Vec2, Vec3};
+use hyaline_spectrum::Spectrum;
+
+/// Diffuse light from all faces of a mesh.
+#[derive(Clone, Debug)]
+pub struct MeshLight {
+    sampler: MeshSampler,
+    emission: SurfaceEmission,
+}
+
+impl MeshLight {
+    /// A mesh of the given radiance, W sr⁻¹ m⁻².
+    pub fn new(sampler: MeshSampler, radiance: Spectrum, sides: ShiningSides) -> Self {
+        Self { sampler, emission: SurfaceEmission { radiance, sides } }
+    }
+
+    pub(super) fn sample_direct(&self, p: Vec3, u: Vec2) -> Option<DirectSample> {
+        self.emission.direct_by_area(p, &self.sampler.sample(u))
+    }
+
+    pub(super) fn pdf_direct(&self, p: Vec3, wi: Vec3, hit: &SurfaceHit) -> f32 {
+        self.emission.pdf_by_area(p, wi, (hit.p, hit.ng), self.pdf_a())
+    }
+
+    pub(super) fn radiance_from(&self, hit: &SurfaceHit, w: Vec3) -> Spectrum {
+        self.emission.radiance_toward(hit.ng, w)
+    }
+
+    pub(super) fn sample_emission(&self, u_position: Vec2, u_direction: Vec2) -> Option<EmissionSample> {
+        self.emission.emission(&self.sampler.sample(u_position), u_direction)
+    }
+
+    pub(super) fn pdf_emission(&self, n: Vec3, direction: Vec3) -> EmissionPdf {
+        EmissionPdf { position: self.pdf_a(), direction: self.emission.pdf_of_direction(n, direction) }
+    }
+
+    pub(super) fn power(&self) -> Spectrum {
+        self.emission.power(self.sampler.area() as f32)
+    }
+
+    /// Density of all points, m⁻².
+    fn pdf_a(&self) -> f32 {
+        (1.0 / self.sampler.area()) as f32
+    }
+}

@@ -1,0 +1,158 @@
+//! What a ray meets at a hit: the surface, what coincides with it, and what crossing it changes.
+
+use crate::World;
+use hyaline_geometry::{Candidate, ItemGeometry, SurfaceHit};
+use hyaline_math::{Ray, Vec3};
+use hyaline_math::ray::offset_distance;
+use hyaline_scattering::{BoundaryKind, Crossing, MediumId, MediumSet, ObjectId, Side, Sides, SurfaceBsdf, SurfaceCrossing};
+use hyaline_spectrum::Spectrum;
+use smallvec::{SmallVec, smallvec};
+
+/// What crossing a surface changes; an opaque surface changes nothing.
+#[derive(Clone, Debug)]
+pub struct Encounter {
+    /// The boundary; `None` where no media meet.
+    pub crossing: Option<Crossing>,
+    surfaces: SmallVec<[SurfaceCrossing; 2]>,
+}
+
+impl Encounter {
+    fn opaque() -> Self {
+        Self { crossing: None, surfaces: SmallVec::new() }
+    }
+
+    /// Takes a path across: `set` becomes what holds on the other side.
+    pub fn commit(&self, world: &World, set: &mut MediumSet) {
+        set.commit(&world.boundaries, &self.surfaces);
+    }
+}
+
+impl World {
+    /// The surface at `candidate` and what crossing it changes for a path inside `set`.
+    ///
+    /// Boundaries that coincide within the error of the hit are crossed together: the next ray starts beyond all of
+    /// them. Where an opaque surface is among them it is what the ray meets: it touches the body from inside.
+    ///
+    /// - `visible`: mask of the items that the ray sees.
+    /// - `never_entered`: told the solids that the path leaves without having entered them; `set` is repaired.
+    pub fn meet(
+        &self,
+        ray: &Ray,
+        candidate: &Candidate,
+        set: &mut MediumSet,
+        visible: u8,
+        never_entered: &mut impl FnMut(ObjectId),
+    ) -> (SurfaceHit, Encounter) {
+        let hit = self.geometry.surface(ray, candidate);
+        let item = &self.items[hit.item as usize];
+        if self.boundaries.of(item.object) == BoundaryKind::None {
+            return (hit, Encounter::opaque());
+        }
+        let mut surfaces = smallvec![(item.object, Side::from_cosine(ray.direction.dot(hit.ng)))];
+        if item.may_coincide
+            && let Some(opaque) = self.gather(ray, &hit, visible, &mut surfaces)
+        {
+            return (self.geometry.surface(ray, &opaque), Encounter::opaque());
+        }
+        let crossing = Some(set.crossing(&self.boundaries, &surfaces, never_entered));
+        (hit, Encounter { crossing, surfaces })
+    }
+
+    /// Adds the boundaries that coincide with `hit`; returns the first opaque surface that does, if any.
+    fn gather(
+        &self,
+        ray: &Ray,
+        hit: &SurfaceHit,
+        visible: u8,
+        surfaces: &mut SmallVec<[SurfaceCrossing; 2]>,
+    ) -> Option<Candidate> {
+        // What the start of the next ray jumps over, measured along this one.
+        let jump = offset_distance(hit.p, hit.p_error) / hit.ng.dot(ray.direction).abs().max(1e-3);
+        let window = Ray { t_min: hit.t.next_down(), t_max: (hit.t + jump).next_up(), ..*ray };
+        let mut opaque: Option<Candidate> = None;
+        self.geometry.crossings(&window, visible, &mut |other: Candidate| {
+            if (other.item, other.primitive) == (hit.item, hit.primitive) {
+                return;
+            }
+            let object = self.items[other.item as usize].object;
+            if self.boundaries.of(object) != BoundaryKind::None {
+                let ng = self.geometry.surface(ray, &other).ng;
+                surfaces.push((object, Side::from_cosine(ray.direction.dot(ng))));
+            } else if opaque.is_none_or(|first| (other.t, other.item) < (first.t, first.item)) {
+                opaque = Some(other);
+            }
+        });
+        opaque
+    }
+
+    /// Fraction of light that goes straight through, unbent and unreflected; `None` where the surface does more than
+    /// that.
+    pub fn straight_through(&self, hit: &SurfaceHit, encounter: &Encounter) -> Option<Spectrum> {
+        match encounter.crossing {
+            Some(Crossing::Hidden) => Some(Spectrum::ONE),
+            crossing => {
+                let is_matched = match crossing {
+                    Some(Crossing::Boundary { from, to, .. }) => self.ior(from) == self.ior(to),
+                    _ => false,
+                };
+                let material = &self.materials[self.material_of(hit, encounter) as usize];
+                material.straight_through(&self.textures, hit.uv, is_matched)
+            }
+        }
+    }
+
+    /// How the surface scatters light that comes along `ray` through the medium `within`.
+    pub fn surface_bsdf(&self, ray: &Ray, hit: &SurfaceHit, encounter: &Encounter, within: MediumId) -> SurfaceBsdf {
+        let (ior, eta) = match encounter.crossing {
+            Some(Crossing::Boundary { from, to, .. }) => (self.ior(from), self.ior(to) / self.ior(from)),
+            Some(Crossing::Hidden) | None => (self.ior(within), 1.0),
+        };
+        let material = &self.materials[self.material_of(hit, encounter) as usize];
+        let bsdf = material.bsdf(&self.textures, hit.uv, ior, eta);
+        SurfaceBsdf::new(bsdf, hit.n, hit.ng, -ray.direction, material.sides(), self.lanes)
+    }
+
+    /// Suffern's local term of a simple transparent surface; `None` where it has none.
+    ///
+    /// - `wo`: where the path came from, unit, away from the surface.
+    pub fn local_term(&self, hit: &SurfaceHit, wo: Vec3) -> Option<SurfaceBsdf> {
+        let item = &self.items[hit.item as usize];
+        let bsdf = self.materials[self.material_at(item.material, hit) as usize].local_term()?;
+        Some(SurfaceBsdf::new(bsdf, hit.n, hit.ng, wo, Sides::Both, self.lanes))
+    }
+
+    /// Whether a surface without media lets light through: a thin pane.
+    pub fn is_thin(&self, hit: &SurfaceHit) -> bool {
+        let item = &self.items[hit.item as usize];
+        self.materials[self.material_at(item.material, hit) as usize].is_thin()
+    }
+
+    /// Index of refraction of a medium.
+    pub fn ior(&self, medium: MediumId) -> f32 {
+        self.media[medium.0 as usize].ior
+    }
+
+    /// The finish in force: that of the surface hit, or of the object whose boundary wins where several coincide.
+    fn material_of(&self, hit: &SurfaceHit, encounter: &Encounter) -> u32 {
+        let item = &self.items[hit.item as usize];
+        match encounter.crossing {
+            Some(Crossing::Boundary { owner, .. }) if owner != item.object => self.object_materials[owner.0 as usize],
+            _ => self.material_at(item.material, hit),
+        }
+    }
+
+    /// The finish of a face, where a mesh has several.
+    fn material_at(&self, default: u32, hit: &SurfaceHit) -> u32 {
+        let slots = &self.items[hit.item as usize].slot_materials;
+        if slots.is_empty() {
+            return default;
+        }
+        match &self.geometry.items()[hit.item as usize].geometry {
+            ItemGeometry::Mesh { mesh, .. } => {
+                let slot = mesh.mesh().face_slot(hit.primitive);
+                slots.get(slot as usize).copied().unwrap_or(default)
+            }
+            ItemGeometry::Shape(_) => default,
+        }
+    }
+}
