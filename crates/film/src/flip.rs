@@ -12,7 +12,7 @@ use std::f64::consts::PI;
 /// Pixels per degree of a 0.7 m wide screen of 3840 pixels seen from 0.7 m: 3840 · π / 180.
 pub const PIXELS_PER_DEGREE: f64 = 3840.0 * PI / 180.0;
 
-/// Exponent of the color difference [§4.1.2].
+/// Exponent of the color difference [§4.1].
 const COLOR_EXPONENT: f64 = 0.7;
 
 /// Exponent of the feature difference [§4.2].
@@ -22,7 +22,7 @@ const FEATURE_EXPONENT: f64 = 0.5;
 const FEATURE_WIDTH: f64 = 0.082;
 
 /// Amplitudes and widths (degrees²) of the Gaussians that make up the contrast sensitivity of the achromatic, red-green
-/// and blue-yellow channel [table 1].
+/// and blue-yellow channel.
 const SENSITIVITY: [&[[f64; 2]]; 3] = [&[[1.0, 0.0047]], &[[1.0, 0.0053]], &[[34.1, 0.04], [13.5, 0.025]]];
 
 /// The error of every pixel, 0…1.
@@ -63,7 +63,7 @@ impl ColorSpace {
         Self { xyz_from_rgb, rgb_from_xyz: xyz_from_rgb.inverse(), white }
     }
 
-    /// CIELAB with Hunt's adjustment: chroma fades with luminance. Source: Andersson 2020, eq. 4.
+    /// CIELAB with Hunt's adjustment: chroma fades with luminance. Source: Andersson 2020, §4.1.
     fn hunt_lab(&self, rgb: DVec3) -> DVec3 {
         // CIE 15:2004, §8.2.1.
         let f =
@@ -83,7 +83,7 @@ struct Opponent {
 }
 
 impl Opponent {
-    /// Source: Andersson 2020, eq. 2.
+    /// Source: Andersson 2020, §4.1.
     fn new(space: &ColorSpace, colors: &[[f64; 3]], width: usize, height: usize, exposure: f64) -> Self {
         let mut planes = [0, 1, 2].map(|_| Plane::black(width, height));
         for (i, &rgb) in colors.iter().enumerate() {
@@ -108,7 +108,7 @@ impl Opponent {
     }
 }
 
-/// A plane under a sum of Gaussians a √(π/b) exp(-π² r² / b), r in degrees, normalized. Source: Andersson 2020, eq. 3.
+/// A plane under a sum of Gaussians a √(π/b) exp(-π² r² / b), r in degrees, normalized. Source: Andersson 2020, §4.1.
 fn blurred(plane: &Plane, gaussians: &[[f64; 2]]) -> Plane {
     // Three standard deviations of the widest Gaussian of all, √(b / 2π²).
     let radius = (3.0 * (0.04 / (2.0 * PI * PI)).sqrt() * PIXELS_PER_DEGREE).ceil() as usize;
@@ -129,7 +129,7 @@ fn blurred(plane: &Plane, gaussians: &[[f64; 2]]) -> Plane {
     sum
 }
 
-/// Color difference of every pixel, 0…1. Source: Andersson 2020, §4.1.3.
+/// Color difference of every pixel, 0…1. Source: Andersson 2020, §4.1.
 fn color_differences(space: &ColorSpace, image: &Opponent, reference: &Opponent) -> Vec<f64> {
     // The largest difference in the space is that of its green and its blue.
     let largest = powf(hyab(space.hunt_lab(DVec3::Y), space.hunt_lab(DVec3::Z)), COLOR_EXPONENT);
@@ -137,13 +137,13 @@ fn color_differences(space: &ColorSpace, image: &Opponent, reference: &Opponent)
     pairs.map(|(a, b)| redistributed(powf(hyab(a, b), COLOR_EXPONENT), largest)).collect()
 }
 
-/// Distance in CIELAB for large differences: city block between lightness and chroma. Source: Andersson 2020, eq. 5.
+/// Distance in CIELAB for large differences: city block between lightness and chroma. Source: Andersson 2020, §4.1.
 fn hyab(a: DVec3, b: DVec3) -> f64 {
     let d = a - b;
     d.x.abs() + (d.y * d.y + d.z * d.z).sqrt()
 }
 
-/// Errors below 40 % of the largest take 95 % of the scale. Source: Andersson 2020, §4.1.3.
+/// Errors below 40 % of the largest take 95 % of the scale. Source: Andersson 2020, §4.1.
 fn redistributed(error: f64, largest: f64) -> f64 {
     const CUT: f64 = 0.4;
     const CUT_VALUE: f64 = 0.95;
@@ -155,7 +155,7 @@ fn redistributed(error: f64, largest: f64) -> f64 {
     }
 }
 
-/// Difference in edges and points of every pixel, 0…1. Source: Andersson 2020, §4.2, eq. 8.
+/// Difference in edges and points of every pixel, 0…1. Source: Andersson 2020, §4.2.
 fn feature_differences(image: &Opponent, reference: &Opponent) -> Vec<f64> {
     let pairs = features(&image.planes[0]).into_iter().zip(features(&reference.planes[0]));
     let difference = |(a, b): ([f64; 2], [f64; 2])| (a[0] - b[0]).abs().max((a[1] - b[1]).abs());

@@ -50,7 +50,12 @@ impl Assets {
     ///
     /// # Errors
     /// The file can't be read, is no image, or is damaged.
-    pub(crate) fn image(&self, source: &Source, name: &str, encoding: Option<Encoding>) -> Result<Arc<ImageData>> {
+    pub(crate) fn image(
+        &self,
+        source: &Source,
+        name: &str,
+        encoding: Option<Encoding>,
+    ) -> Result<Arc<ImageData>> {
         let key = (self.path(name), encoding);
         if let Some(image) = self.images.borrow().get(&key) {
             return Ok(image.clone());

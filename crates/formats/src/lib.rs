@@ -40,21 +40,25 @@ type Result<T> = std::result::Result<T, SceneError>;
 ///
 /// # Errors
 /// The file can't be read, its ending is unknown or not supported yet, or something in it is wrong.
-pub fn load(path: &Path, overrides: &[(String, String)]) -> std::result::Result<SceneDescription, SceneError> {
+pub fn load(
+    path: &Path,
+    overrides: &[(String, String)],
+) -> std::result::Result<SceneDescription, SceneError> {
     let file: Arc<str> = Arc::from(path.display().to_string());
     let source = Source::file(file.clone());
-    let read: fn(&str, &str, &Path, &[(String, String)]) -> Result<SceneDescription> = match ending(path).as_str() {
-        "toml" => load_toml_text,
-        "xml" => load_mitsuba_text,
-        "gltf" | "glb" | "pbrt" => {
-            let message = format!("scenes ending in .{} can't be read yet", ending(path));
-            return Err(SceneError::at(&source, message).with_remedy("give a .toml or .xml scene"));
-        }
-        _ => {
-            let error = SceneError::at(&source, "the ending of the file's name tells no scene format");
-            return Err(error.with_remedy("the formats are .toml (hyaline) and .xml (Mitsuba 3)"));
-        }
-    };
+    let read: fn(&str, &str, &Path, &[(String, String)]) -> Result<SceneDescription> =
+        match ending(path).as_str() {
+            "toml" => load_toml_text,
+            "xml" => load_mitsuba_text,
+            "gltf" | "glb" | "pbrt" => {
+                let message = format!("scenes ending in .{} can't be read yet", ending(path));
+                return Err(SceneError::at(&source, message).with_remedy("give a .toml or .xml scene"));
+            }
+            _ => {
+                let error = SceneError::at(&source, "the ending of the file's name tells no scene format");
+                return Err(error.with_remedy("the formats are .toml (hyaline) and .xml (Mitsuba 3)"));
+            }
+        };
     let bytes = assets::read_file(&source, &file, path)?;
     let text = String::from_utf8(bytes).map_err(|error| not_text(&file, error.as_bytes()))?;
     let base_dir = path.parent().unwrap_or(Path::new(""));

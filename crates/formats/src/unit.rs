@@ -40,7 +40,9 @@ pub(crate) fn parse_length(text: &str) -> Result<f64, String> {
         .parse()
         .map_err(|_| format!("is '{text}', which is no length; write a number and a unit, as in \"2 mm\""))?;
     if unit.is_empty() {
-        return Err(format!("is \"{text}\" without a unit; write {text} without quotes or add a unit, as in \"2 mm\""));
+        return Err(format!(
+            "is \"{text}\" without a unit; write {text} without quotes or add a unit, as in \"2 mm\""
+        ));
     }
     let metres = metres(unit)
         .ok_or_else(|| format!("has the unknown unit '{unit}'; the units are {}", names().join(", ")))?;

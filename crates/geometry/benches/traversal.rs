@@ -81,8 +81,7 @@ fn add_room(mesh: &mut MeshData) {
     for i in 0..8 {
         mesh.positions.push(Vec3::new((i & 1) as f32, (i >> 1 & 1) as f32, (i >> 2) as f32) * 4.0 - 2.0);
     }
-    let quads =
-        [[0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [0, 2, 6, 4], [1, 5, 7, 3]];
+    let quads = [[0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [0, 2, 6, 4], [1, 5, 7, 3]];
     for [a, b, c, d] in quads {
         mesh.triangles.extend([[a, b, c], [a, c, d]].map(|face| face.map(|i: u32| first + i)));
     }

@@ -3,7 +3,10 @@
 //! Two levels: a tree over the items, and for each mesh a tree over its faces in the space of the mesh, which
 //! instances share. Distances are always those along the ray in the world.
 
-use crate::bvh::{self, Any, BoxRay, Closest, Every, Lanes, MeshBvh, Query, SimdLevel, Sink, SlabRay, Tree, VerifiedLevel, Visitor};
+use crate::bvh::{
+    self, Any, BoxRay, Closest, Every, Lanes, MeshBvh, Query, SimdLevel, Sink, SlabRay, Tree, VerifiedLevel,
+    Visitor,
+};
 use crate::hit::{Candidate, SurfaceHit};
 use crate::mesh::triangle::LocalRay;
 use crate::primitive::Primitive;
@@ -147,10 +150,10 @@ fn placed_bounds(mesh: &crate::Mesh, transform: &Transform) -> Bounds {
         let pick = |axis: usize| if i >> axis & 1 == 0 { local.min[axis] } else { local.max[axis] };
         transform.point(Vec3::new(pick(0), pick(1), pick(2)).as_dvec3())
     });
-    let (low, high) = corners.fold(
-        (hyaline_math::DVec3::INFINITY, hyaline_math::DVec3::NEG_INFINITY),
-        |(low, high), p| (low.min(p), high.max(p)),
-    );
+    let (low, high) = corners
+        .fold((hyaline_math::DVec3::INFINITY, hyaline_math::DVec3::NEG_INFINITY), |(low, high), p| {
+            (low.min(p), high.max(p))
+        });
     // Roundings of the map and of the conversion to f32 are well below this.
     let margin = f64::from(f32::EPSILON) * low.abs().max(high.abs()).max_element();
     Bounds { min: (low - margin).as_vec3(), max: (high + margin).as_vec3() }
@@ -179,8 +182,15 @@ impl<K: Sink> Query for Search<'_, K> {
         let slabs = SlabRay::new(&local);
         let box_ray = BoxRay::new(&slabs, tree);
         let items = &self.aggregate.items;
-        let mut leaves =
-            Leaves { lanes, items, ray: self.ray, local: &local, slabs: &slabs, mask: self.mask, sink: self.sink };
+        let mut leaves = Leaves {
+            lanes,
+            items,
+            ray: self.ray,
+            local: &local,
+            slabs: &slabs,
+            mask: self.mask,
+            sink: self.sink,
+        };
         // Whether the sink broke off is of no interest: it knows what it took.
         let _ = bvh::traverse(lanes, tree, &box_ray, &mut leaves);
     }
@@ -245,3 +255,6 @@ impl<L: Lanes, K: Sink> Leaves<'_, L, K> {
         }
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -61,14 +61,14 @@ impl Primitive {
     }
 
     fn solve(&self, ray: &Ray) -> Crossings {
-        let (origin, direction) = self.to_object(ray);
+        let (origin, direction) = self.object_line(ray);
         let mut found = Crossings::new();
         self.shape.crossings(origin, direction, ray.t_min.into(), ray.t_max.into(), &mut found);
         found
     }
 
     /// Origin and direction in object space; the distance along the ray stays the world's.
-    fn to_object(self, ray: &Ray) -> (DVec3, DVec3) {
+    fn object_line(&self, ray: &Ray) -> (DVec3, DVec3) {
         (
             self.transform.inverse_point(ray.origin.as_dvec3()),
             self.transform.inverse_vector(ray.direction.as_dvec3()),
@@ -94,7 +94,7 @@ impl Primitive {
     ///
     /// `item` and `primitive` are left 0.
     pub fn surface_at(&self, ray: &Ray, t: f32) -> SurfaceHit {
-        let (origin, direction) = self.to_object(ray);
+        let (origin, direction) = self.object_line(ray);
         let exact_t = self.refine(origin, direction, t);
         let point = self.shape.surface_at(origin + direction * exact_t);
         let ng = self.world_normal(point.n);
@@ -159,12 +159,13 @@ impl Primitive {
         if self.flipped { -n.as_vec3() } else { n.as_vec3() }
     }
 
-    /// A surface point in the world, rounded, and a bound on how far the rounding of all steps moved it off the surface.
+    /// A surface point in the world, rounded, and a bound on how far all rounding moved it off the surface.
     fn world_point(&self, p: DVec3) -> (Vec3, f32) {
         let rounded = self.transform.point(p).as_vec3();
         let magnitude = self.world_magnitude(p.abs() + self.shape.extent());
         let inner = (ROUNDING * f64::EPSILON * magnitude).length();
-        let outer = 0.5 * f64::from(f32::EPSILON) * rounded.as_dvec3().length() + f64::from(f32::MIN_POSITIVE);
+        let outer =
+            0.5 * f64::from(f32::EPSILON) * rounded.as_dvec3().length() + f64::from(f32::MIN_POSITIVE);
         // The factor covers the rounding of the bound itself.
         (rounded, ((inner + outer) * 1.000_001) as f32)
     }
@@ -172,18 +173,20 @@ impl Primitive {
     /// How large the terms are that sum up to a world point whose object coordinates are at most `size`.
     fn world_magnitude(&self, size: DVec3) -> DVec3 {
         let linear = self.transform.linear();
-        let turned = linear.x_axis.abs() * size.x + linear.y_axis.abs() * size.y + linear.z_axis.abs() * size.z;
+        let turned =
+            linear.x_axis.abs() * size.x + linear.y_axis.abs() * size.y + linear.z_axis.abs() * size.z;
         turned + self.transform.translation().abs()
     }
 }
 
-/// Nodes and weights of composite three-point Gauss quadrature over [0, 1], through the substitution s² (3 - 2 s) that
-/// makes square roots at either end smooth.
+/// Nodes and weights of composite three-point Gauss quadrature over [0, 1], through the substitution s² (3 - 2 s)
+/// that makes square roots at either end smooth.
 fn gauss_nodes(panels: usize) -> Vec<(f64, f64)> {
     let offset = 0.5 * 0.6_f64.sqrt();
     let rule = [(0.5 - offset, 5.0 / 18.0), (0.5, 4.0 / 9.0), (0.5 + offset, 5.0 / 18.0)];
     let width = 1.0 / panels as f64;
-    let nodes = (0..panels).flat_map(|panel| rule.map(|(x, weight)| ((panel as f64 + x) * width, weight * width)));
+    let nodes =
+        (0..panels).flat_map(|panel| rule.map(|(x, weight)| ((panel as f64 + x) * width, weight * width)));
     nodes.map(|(s, weight)| (s * s * (3.0 - 2.0 * s), weight * 6.0 * s * (1.0 - s))).collect()
 }
 

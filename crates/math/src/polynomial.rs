@@ -67,8 +67,10 @@ pub fn quartic_roots(c: [f64; 5], a: f64, b: f64) -> Roots {
 /// Source: Press et al., Numerical Recipes, 3rd ed., §9.4.
 pub fn bracketed_root(f: impl Fn(f64) -> (f64, f64), a: f64, b: f64, tolerance: f64) -> f64 {
     let (mut low, mut high) = (a, b);
-    let rising = f(a).0 < f(b).0;
-    let mut x = low + 0.5 * (high - low);
+    let (at_a, at_b) = (f(a).0, f(b).0);
+    let rising = at_a < at_b;
+    let secant = a - at_a * ((b - a) / (at_b - at_a));
+    let mut x = if secant > low && secant < high { secant } else { low + 0.5 * (high - low) };
     let mut last_step = high - low;
     // Newton's steps halve and bisection halves the bracket, so this ends long before; the bound guards against NaN.
     for _ in 0..4096 {

@@ -1,5 +1,6 @@
 //! Several passes at once: tiles of all of them are handed to the threads, so that none waits for a pass to end.
 
+use crate::tile;
 use hyaline_film::{PixelSample, Rect};
 use hyaline_transport::{Pass, Prepared, Stats};
 use rayon::prelude::*;
@@ -10,7 +11,7 @@ use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 pub(crate) struct PassSamples {
     /// Number of the pass.
     pub(crate) number: u32,
-    /// Samples of one tile after the other, each row by row.
+    /// Its samples, row by row over the crop.
     pub(crate) samples: Vec<PixelSample>,
     /// Tiles that have been rendered.
     tiles_done: AtomicUsize,
@@ -20,6 +21,8 @@ pub(crate) struct PassSamples {
 pub(crate) struct Batches<'a> {
     /// What all passes share.
     pub(crate) prepared: &'a dyn Prepared,
+    /// Pixels to render.
+    pub(crate) crop: Rect,
     /// Tiles of the crop.
     pub(crate) tiles: &'a [Rect],
     /// Asks to stop.
@@ -32,7 +35,8 @@ pub(crate) struct Batches<'a> {
 struct TileJob<'a> {
     pass: &'a dyn Pass,
     tile: Rect,
-    samples: &'a mut [PixelSample],
+    /// Its part of the pass's rows.
+    rows: Vec<&'a mut [PixelSample]>,
     pass_tiles_done: &'a AtomicUsize,
 }
 
@@ -44,12 +48,11 @@ impl Batches<'_> {
         let mut stats = Stats::default();
         let begun: Vec<Box<dyn Pass + '_>> =
             passes.iter().map(|&pass| self.prepared.begin_pass(pass, &mut stats)).collect();
-        let area = self.tiles.iter().map(Rect::area).sum();
         memory.resize_with(passes.len(), PassSamples::default);
         for (memory, &pass) in memory.iter_mut().zip(passes) {
             memory.number = pass;
             memory.tiles_done = AtomicUsize::new(0);
-            memory.samples.resize(area, PixelSample::default());
+            memory.samples.resize(self.crop.area(), PixelSample::default());
         }
         let jobs: Vec<TileJob<'_>> =
             begun.iter().zip(memory).flat_map(|(pass, memory)| self.jobs(pass.as_ref(), memory)).collect();
@@ -64,25 +67,28 @@ impl Batches<'_> {
     }
 
     /// The tiles of a pass, each with its place in memory.
-    fn jobs<'a>(&self, pass: &'a dyn Pass, memory: &'a mut PassSamples) -> Vec<TileJob<'a>> {
-        let mut rest = memory.samples.as_mut_slice();
-        let mut jobs = Vec::with_capacity(self.tiles.len());
-        for &tile in self.tiles {
-            let (samples, after) = rest.split_at_mut(tile.area());
-            rest = after;
-            jobs.push(TileJob { pass, tile, samples, pass_tiles_done: &memory.tiles_done });
-        }
-        jobs
+    fn jobs<'a>(&self, pass: &'a dyn Pass, memory: &'a mut PassSamples) -> impl Iterator<Item = TileJob<'a>> {
+        let PassSamples { samples, tiles_done, .. } = memory;
+        let rows = tile::part(self.crop, samples);
+        self.tiles.iter().zip(rows).map(|(&tile, rows)| TileJob {
+            pass,
+            tile,
+            rows,
+            pass_tiles_done: tiles_done,
+        })
     }
 
     fn render_tile(&self, job: TileJob<'_>) -> Stats {
         let mut stats = Stats::default();
-        if !self.cancel.load(Ordering::Relaxed) {
-            job.samples.fill(PixelSample::default());
-            job.pass.render_tile(job.tile, job.samples, &mut stats);
-            job.pass_tiles_done.fetch_add(1, Ordering::SeqCst);
-            self.tiles_done.fetch_add(1, Ordering::Relaxed);
+        if self.cancel.load(Ordering::Relaxed) {
+            return stats;
         }
+        let mut samples = [PixelSample::default(); (tile::SIDE * tile::SIDE) as usize];
+        job.pass.render_tile(job.tile, &mut samples[..job.tile.area()], &mut stats);
+        let rendered = samples.chunks_exact(job.tile.width() as usize);
+        job.rows.into_iter().zip(rendered).for_each(|(row, rendered)| row.copy_from_slice(rendered));
+        job.pass_tiles_done.fetch_add(1, Ordering::SeqCst);
+        self.tiles_done.fetch_add(1, Ordering::Relaxed);
         stats
     }
 }

@@ -92,7 +92,13 @@ impl<'a> Run<'a> {
     ) {
         let tiles = tile::tiles(self.job.crop);
         let tiles_done = AtomicUsize::new(0);
-        let batches = Batches { prepared, tiles: &tiles, cancel: self.job.cancel, tiles_done: &tiles_done };
+        let batches = Batches {
+            prepared,
+            crop: self.job.crop,
+            tiles: &tiles,
+            cancel: self.job.cancel,
+            tiles_done: &tiles_done,
+        };
         let mut memory = Vec::new();
         let mut next_pass = self.job.limits.passes.start;
         loop {
@@ -132,12 +138,8 @@ impl<'a> Run<'a> {
     /// Adds what a batch has finished; a pass of which part is missing is given up.
     fn add_whole_passes(&mut self, batches: &Batches<'_>, memory: &[PassSamples]) {
         for pass in memory.iter().filter(|pass| batches.is_whole(pass)) {
-            let mut rest = pass.samples.as_slice();
-            for &tile in batches.tiles {
-                let (samples, after) = rest.split_at(tile.area());
-                self.film.add_tile(pass.number, tile, samples);
-                rest = after;
-            }
+            let film = &mut self.film;
+            self.job.workers.run(|| film.add_tile(pass.number, batches.crop, &pass.samples));
             // Only passes that the film lacks are begun, so that none is refused here.
             let finished = self.film.finish_pass(pass.number);
             debug_assert!(finished.is_ok(), "{finished:?}");

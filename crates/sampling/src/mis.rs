@@ -17,7 +17,7 @@ pub fn balance(pdf_a: f32, pdf_b: f32) -> f32 {
 /// As `balance`, but with squared densities: lower variance where one strategy is far better than the other.
 ///
 /// Squares of densities never occur, so that nothing overflows.
-/// Source: Veach 1997, §9.2.3.1, the power heuristic with β = 2.
+/// Source: Veach 1997, §9.2.3, the power heuristic with β = 2.
 #[inline]
 pub fn power(pdf_a: f32, pdf_b: f32) -> f32 {
     match ratio(pdf_a, pdf_b) {

@@ -52,7 +52,7 @@ impl Rng {
 /// An odd step with enough changes between neighboring bits to advance the counter irregularly.
 fn step_from_bits(bits: u64) -> u64 {
     let step = bits | 1;
-    // [Steele 2014, §5]
+    // [Steele 2014, mixGamma]
     if (step ^ (step >> 1)).count_ones() < 24 { step ^ 0xaaaa_aaaa_aaaa_aaaa } else { step }
 }
 

@@ -6,9 +6,9 @@
 /// A random permutation of 32-bit numbers in which every bit depends on the seed and on the bits below it alone.
 ///
 /// On bit-reversed numbers this is nested uniform (Owen) scrambling: equal leading digits stay equal.
-/// Source: Laine & Karras, Stratified sampling for stochastic transparency, EGSR 2011, §3.1; the multipliers are of
-/// the form that Burley, Practical hash-based Owen scrambling, JCGT 9(4), 2020, §4, requires: x ^= x · even, and
-/// products and sums with seeded constants in between.
+/// Source: Laine & Karras, Stratified sampling for stochastic transparency, EGSR 2011, in the
+/// form of Burley, Practical hash-based Owen scrambling, JCGT 9(4), 2020: x ^= x · even, and sums and odd products with
+/// the seed; steps and multipliers of Vegdahl, Building a better LK hash, 2021, whose avalanche is the most even.
 #[inline]
 fn scramble_reversed(x: u32, seed: u32) -> u32 {
     let x = x ^ x.wrapping_mul(0x3d20_adea);
@@ -20,7 +20,7 @@ fn scramble_reversed(x: u32, seed: u32) -> u32 {
 /// Position in the sequence of the sample whose index has the bit reversal `reversed_index`.
 ///
 /// A nested uniform scramble of the index: each aligned block of 2ᵐ samples goes to an aligned block of 2ᵐ points.
-/// Source: Burley 2020, §5.
+/// Source: Burley 2020.
 #[inline]
 pub(crate) fn shuffle(reversed_index: u32, seed: u32) -> u32 {
     scramble_reversed(reversed_index, seed).reverse_bits()

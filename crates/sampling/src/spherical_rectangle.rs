@@ -57,7 +57,7 @@ impl SphericalRectangle {
     pub fn sample(&self, u: Vec2) -> Vec3 {
         let [x0, x1] = self.x;
         let area = f64::from(u.x) * self.solid_angle + self.k;
-        // [Ureña 2013, §3: cu is the cosine that places the column of the point]
+        // [Ureña 2013: cu is the cosine that places the column of the point]
         let fu = (cos(area) * self.b0 - self.b1) / sin(area);
         let cu = (1.0_f64.copysign(fu) / (fu * fu + self.b0 * self.b0).sqrt()).clamp(-1.0, 1.0);
         let xu = (-(cu * self.z0) / (1.0 - cu * cu).sqrt().max(1e-150)).clamp(x0, x1);

@@ -11,11 +11,11 @@ use hyaline_world::{World, mask};
 /// A shadow ray stops this fraction short of its target: the rounding of the distance itself.
 const SHORTENING: f32 = 4.0 * f32::EPSILON;
 
-/// The ray from a surface towards a sampled point of a light, ending just before it.
+/// The ray from a surface towards a sampled point of a light, ending just before it; endless for a light at infinity.
 pub fn ray_to_light(from: &SurfaceHit, sample: &DirectSample, time: f32) -> Ray {
     let origin = offset_origin(from.p, from.p_error, from.ng, sample.wi);
     let Some(target) = &sample.target else {
-        return Ray { time, ..Ray::new(origin, sample.wi) };
+        return Ray { time, t_max: sample.distance, ..Ray::new(origin, sample.wi) };
     };
     let end = offset_origin(target.p, target.p_error, target.n, -sample.wi);
     let way: Vec3 = end - origin;

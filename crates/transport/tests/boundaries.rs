@@ -4,9 +4,9 @@ mod scene_kit;
 
 use hyaline_math::{DVec3, Ray, Vec3};
 use hyaline_sampling::Sampler;
-use hyaline_scattering::{MediumId, MediumSet};
+use hyaline_scattering::{MediumId, MediumSet, ObjectId};
 use hyaline_scene::{LightKind, MeshData, ShapeDescription};
-use hyaline_testkit::Random;
+use hyaline_testkit::{Moments, Random};
 use hyaline_transport::integrator::radiance;
 use hyaline_transport::{RenderSettings, Stats};
 use hyaline_world::World;
@@ -76,7 +76,8 @@ fn a_mesh_with_holes_is_reported_by_name_and_breaks_nothing() {
         assert!(value.is_finite() && value >= 0.0, "sample {index} is {value}");
         total.add(&stats);
     }
-    let names: Vec<&str> = total.never_entered.keys().map(|&o| world.object_names[o as usize].as_str()).collect();
+    let names: Vec<&str> =
+        total.never_entered.keys().map(|&o| world.object_names[o as usize].as_str()).collect();
     assert_eq!(names, ["sieve"]);
     assert!(total.never_entered.values().all(|&count| count > 500), "{:?}", total.never_entered);
 }
@@ -101,14 +102,24 @@ fn a_white_table_under_a_glass_box_is_as_bright_as_the_sky() {
         kit.sky(1.0).camera(DVec3::new(0.0, y + 3.0, 4.0), DVec3::Y * y);
         let world = kit.world();
         let mut random = Random::from_seed(8);
+        let mut never_entered = 0;
         // All is at equilibrium: the white table, the glass and the sky look alike from everywhere in the air.
         for _ in 0..40 {
             let from = Vec3::new(random.between(-2.0, 2.0) as f32, (y + 2.5) as f32, 3.0);
             let [x, z] = [random.between(-0.6, 0.6), random.between(-0.6, 0.6)];
             let to = Vec3::new(x as f32, y as f32, z as f32);
             let ray = Ray::new(from, (to - from).normalize());
-            assert_mean(&estimate(&world, ray, 4_000), 1.0, &format!("table at {y}, {ray:?}"));
+            let samples = (0..4_000).map(|index| {
+                let (value, stats) = counted_sample(&world, ray, world.camera_media[0].clone(), index);
+                never_entered += stats.never_entered.values().sum::<u64>();
+                f64::from(value)
+            });
+            let moments: Moments = samples.collect();
+            assert_mean(&moments, 1.0, &format!("table at {y}, {ray:?}"));
         }
+        // Next to the edge where box and table meet `f32` cannot tell on which side of the wall a point of the table is.
+        println!("{never_entered} never entered");
+        assert!(never_entered <= 4, "table at {y}: {never_entered} boundaries were left and never entered");
     }
 }
 
@@ -194,11 +205,54 @@ fn bodies_of_the_same_index_cast_no_shadow() {
 }
 
 #[test]
+fn what_lies_beyond_a_point_light_casts_no_shadow() {
+    let bare = lit_floor(|_| {});
+    let covered = lit_floor(|kit| {
+        kit.surface("ceiling", floor(3.5, 4.0), "floor");
+    });
+    assert_eq!(covered, bare);
+}
+
+#[test]
+fn a_point_light_in_an_absorbing_world_is_filtered_up_to_the_light() {
+    let filtered = lit_floor(|kit| kit.description.surrounding = Some("dark".into()));
+    let way = 3.0 + Vec3::new(0.0, 0.3, 3.0).length();
+    let expected = 0.5 / std::f32::consts::PI * hyaline_math::float::exp(-0.5 * way);
+    assert!((filtered - expected).abs() < 1e-5 * expected, "{filtered} is not {expected}");
+}
+
+#[test]
+fn a_camera_beside_bodies_that_share_faces_is_outside_of_them() {
+    let mut kit = SceneKit::new();
+    kit.medium("glass", 1.5).medium("water", 1.333);
+    for (i, medium) in ["glass", "water", "glass", "water"].into_iter().enumerate() {
+        // Neighbors share a face, and all of them the planes of the other four.
+        let (min, max) = (DVec3::new(-1.0, i as f64, -1.0), DVec3::new(1.0, (i + 1) as f64, 1.0));
+        kit.solid(medium, cuboid(min, max), medium);
+    }
+    // A bottle of the same outline as the stack wins over it.
+    kit.solid("over all", cuboid(DVec3::new(-1.0, 0.0, -1.0), DVec3::new(1.0, 4.0, 1.0)), "glass");
+    for (from, expected) in
+        [(DVec3::new(0.0, 0.3, 3.0), 0), (DVec3::new(0.3, -0.5, 0.2), 0), (DVec3::new(0.3, 2.5, 0.2), 1)]
+    {
+        kit.camera(from, DVec3::new(5.0, 1.0, 0.0));
+        let set = kit.world().camera_media[0].clone();
+        assert_eq!(set.active(), MediumId(expected), "at {from}: {set:?}");
+        assert_eq!(set.holds(ObjectId(4)), expected == 1, "at {from}: {set:?}");
+        assert!((0..4).all(|i| set.holds(ObjectId(i)) == (expected == 1 && i == 2)), "at {from}: {set:?}");
+    }
+}
+
+#[test]
 fn bodies_of_the_same_index_filter_the_light_by_the_length_of_the_way_within() {
     // The two dark boxes cover y = 1…2 between them, and 1.3…1.6 twice.
     let filtered = lit_floor(|kit| {
         let cube = |low: f64, high: f64| cuboid(DVec3::new(-1.0, low, -1.0), DVec3::new(1.0, high, 1.0));
-        kit.solid("lower", cube(1.0, 1.6), "dark").solid("upper", cube(1.3, 2.0), "dark").solid("clear", cube(0.8, 1.2), "same");
+        kit.solid("lower", cube(1.0, 1.6), "dark").solid("upper", cube(1.3, 2.0), "dark").solid(
+            "clear",
+            cube(0.8, 1.2),
+            "same",
+        );
     });
     let expected = 0.5 / std::f32::consts::PI * hyaline_math::float::exp(-0.5);
     assert!((filtered - expected).abs() < 1e-5, "{filtered} is not {expected}");
@@ -208,7 +262,11 @@ fn bodies_of_the_same_index_filter_the_light_by_the_length_of_the_way_within() {
 fn a_body_of_the_same_index_wins_over_glass_and_hides_it() {
     // The glass ball lies wholly within the body of higher priority: nothing of it is there.
     let hidden = lit_floor(|kit| {
-        kit.solid("glass", sphere(DVec3::Y * 1.5, 0.4), "glass").solid("winner", sphere(DVec3::Y * 1.5, 0.7), "same");
+        kit.solid("glass", sphere(DVec3::Y * 1.5, 0.4), "glass").solid(
+            "winner",
+            sphere(DVec3::Y * 1.5, 0.7),
+            "same",
+        );
     });
     let bare = lit_floor(|_| {});
     assert!((hidden - bare).abs() < 1e-5, "{hidden} is not {bare}");

@@ -72,8 +72,12 @@ fn white_matte_things_vanish_in_a_uniform_sky() {
         }
     };
     let scenes: [(&str, &dyn Fn(&mut SceneKit)); 4] = [
-        ("ball", &|kit| drop(kit.surface("ball", sphere(DVec3::ZERO, 0.8), "white"))),
-        ("mesh", &|kit| drop(kit.surface("mesh", ball_mesh(Vec3::ZERO, 0.8, 8), "white"))),
+        ("ball", &|kit| {
+            kit.surface("ball", sphere(DVec3::ZERO, 0.8), "white");
+        }),
+        ("mesh", &|kit| {
+            kit.surface("mesh", ball_mesh(Vec3::ZERO, 0.8, 8), "white");
+        }),
         ("open box", &open_box),
         ("ball in an open box", &|kit| {
             open_box(kit);

@@ -33,7 +33,7 @@ type Boundaries = Vec<(f64, Medium, Medium)>;
 #[test]
 fn a_glass_built_in_any_way_has_the_same_boundaries_along_every_ray_in_both_directions() {
     let scene = traced_glass();
-    let worlds = WAYS.map(|way| (way, glass_of_water(way).world()));
+    let worlds = WAYS.map(|way| (way, seen_from_afar(way)));
     let mut random = Random::from_seed(3);
     let (mut compared, mut undecided, mut boundaries) = (0, 0, 0);
     while compared < RAYS {
@@ -54,6 +54,13 @@ fn a_glass_built_in_any_way_has_the_same_boundaries_along_every_ray_in_both_dire
     println!("{boundaries} boundaries, {undecided} rays undecided");
     assert!(boundaries > 3 * RAYS, "only {boundaries} boundaries were met");
     assert!(undecided < RAYS / 200, "{undecided} rays were undecided");
+}
+
+/// The glass alone, the camera outside of it.
+fn seen_from_afar(way: Way) -> World {
+    let mut kit = glass_of_water(way);
+    kit.camera(DVec3::Z * REACH, DVec3::ZERO);
+    kit.world()
 }
 
 fn media_of(list: &Boundaries) -> Vec<(Medium, Medium)> {
@@ -127,7 +134,7 @@ fn walk_straight(world: &World, ray: &Ray) -> Boundaries {
 /// Pixels along each edge of the pictures.
 const SIZE: u32 = 12;
 /// Samples per pixel.
-const SAMPLES: u32 = 1000;
+const SAMPLES: u32 = 1500;
 /// Probability that the comparison of all pictures rejects pictures that are equal.
 const LEVEL: f64 = 0.01;
 
@@ -135,20 +142,25 @@ const LEVEL: f64 = 0.01;
 fn a_glass_built_in_any_way_gives_the_same_picture() {
     let pictures = WAYS.map(|way| (way, render(glass_of_water(way), way as u64 + 1)));
     let [(_, first), others @ ..] = &pictures;
-    let relative: f64 = first.iter().map(|m| m.variance_of_mean().sqrt() / m.mean()).sum::<f64>() / first.len() as f64;
+    let relative: f64 =
+        first.iter().map(|m| m.variance_of_mean().sqrt() / m.mean()).sum::<f64>() / first.len() as f64;
     assert!(relative < 0.05, "pixels are uncertain by {relative}: too much to tell anything");
     let level = sidak(LEVEL, first.len() * others.len());
     for (way, picture) in others {
         let (worst, p) = least_likely(first, picture);
-        assert!(p > level, "{way:?}: value {worst} differs from the vessel's with p = {p:e}: {} and {}",
-            picture[worst].mean(), first[worst].mean());
+        assert!(
+            p > level,
+            "{way:?}: value {worst} differs from the vessel's with p = {p:e}: {} and {}",
+            picture[worst].mean(),
+            first[worst].mean()
+        );
     }
 }
 
 #[test]
-fn water_that_bends_light_two_percent_more_is_noticed() {
+fn water_of_an_index_five_percent_higher_is_noticed() {
     let mut wrong = glass_of_water(Way::Interfaces);
-    wrong.description.media[WATER - 1].index = IndexDescription::Constant(1.36);
+    wrong.description.media[WATER - 1].index = IndexDescription::Constant(1.4);
     let right = render(glass_of_water(Way::Interfaces), 1);
     let (_, p) = least_likely(&right, &render(wrong, 2));
     assert!(p < sidak(LEVEL, 3 * right.len()), "p = {p}");
@@ -175,7 +187,8 @@ fn render(mut kit: SceneKit, seed: u64) -> Vec<Moments> {
     let world = kit.world();
     let settings = RenderSettings { seed, ..settings() };
     let pixels: Vec<(u32, u32)> = (0..SIZE * SIZE).map(|i| (i % SIZE, i / SIZE)).collect();
-    let values: Vec<[Moments; 3]> = pixels.par_iter().map(|&pixel| render_pixel(&world, &settings, pixel)).collect();
+    let values: Vec<[Moments; 3]> =
+        pixels.par_iter().map(|&pixel| render_pixel(&world, &settings, pixel)).collect();
     values.into_iter().flatten().collect()
 }
 

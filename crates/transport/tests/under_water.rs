@@ -146,15 +146,15 @@ fn absorbing_water_dims_every_passage() {
     let (albedo, sigma, depth) = (0.8_f32, 0.5_f32, 1.0);
     let (rho, s) = (f64::from(albedo), f64::from(sigma));
     // Integrals over the cosine in air: at both ends of the same ray the surface reflects alike, and cos_w dcos_w =
-    // cos_a dcos_a / n². Filtered is one way down, or both ways of a round trip.
-    let through = |ways: f64| {
-        let filter = |c: f64| float::exp(-s * depth * ways / refracted_cosine(c, N));
-        move |share: &dyn Fn(f64) -> f64| 2.0 * integrate(|c| share(c) * filter(c) * c, 0.0, 1.0, 64)
-    };
-    let first = through(1.0)(&|c| 1.0 - reflected(c, N));
+    // cos_a dcos_a / n². Filtered is one way down, or both ways of a round trip; beyond the window the reflection is
+    // total.
+    let slope = |c: f64| depth / refracted_cosine(c, N);
+    let down = |c: f64| (1.0 - reflected(c, N)) * float::exp(-s * slope(c)) * c;
+    let to_and_fro = |c: f64| reflected(c, N) * float::exp(-2.0 * s * slope(c)) * c;
+    let first = 2.0 * integrate(down, 0.0, 1.0, 64);
     let critical = (1.0 - 1.0 / (N * N)).sqrt();
-    let total = 2.0 * integrate(|c| float::exp(-2.0 * s * depth / c) * c, 1e-9, critical, 64);
-    let round_trip = total + through(2.0)(&|c| reflected(c, N)) / (N * N);
+    let total = 2.0 * integrate(|c| float::exp(-2.0 * s * depth / c) * c, 0.0, critical, 64);
+    let round_trip = total + 2.0 * integrate(to_and_fro, 0.0, 1.0, 64) / (N * N);
     let bottom = rho * first / (1.0 - rho * round_trip);
 
     let from = DVec3::new(0.0, -0.4, 0.0);

@@ -32,7 +32,11 @@ const RULES: [Rule; 14] = [
         layer: 5,
         may_import: &["math", "optics", "sampling", "spectrum", "geometry", "scattering", "film", "world"],
     },
-    Rule { name: "render", layer: 6, may_import: &["sampling", "scene", "film", "world", "transport"] },
+    Rule {
+        name: "render",
+        layer: 6,
+        may_import: &["math", "sampling", "scene", "film", "world", "transport"],
+    },
     Rule {
         name: "hyaline",
         layer: 7,

@@ -60,9 +60,12 @@ struct Cursor<'a> {
 impl<'a> Cursor<'a> {
     fn line(&mut self) -> Result<&'a str, String> {
         let rest = &self.bytes[self.offset..];
-        let length = rest.iter().take(4096).position(|byte| *byte == b'\n').ok_or("the HDR header has no end")?;
+        let length =
+            rest.iter().take(4096).position(|byte| *byte == b'\n').ok_or("the HDR header has no end")?;
         self.offset += length + 1;
-        std::str::from_utf8(&rest[..length]).map(str::trim_end).map_err(|_| "not a text in an HDR header".to_owned())
+        std::str::from_utf8(&rest[..length])
+            .map(str::trim_end)
+            .map_err(|_| "not a text in an HDR header".to_owned())
     }
 
     fn take<const N: usize>(&mut self) -> Result<[u8; N], String> {

@@ -19,7 +19,9 @@ pub(super) fn read(bytes: &[u8]) -> Result<ImageData, String> {
         _ => return Err("not a PFM: it must begin with PF or Pf".to_owned()),
     };
     let mut number = |what: &str| {
-        word().and_then(|text| text.parse::<f64>().ok()).ok_or_else(|| format!("not a PFM: no {what} in its header"))
+        word()
+            .and_then(|text| text.parse::<f64>().ok())
+            .ok_or_else(|| format!("not a PFM: no {what} in its header"))
     };
     let (width, height, scale) = (number("width")?, number("height")?, number("scale")?);
     let (width, height) = check_size(width as u64, height as u64)?;

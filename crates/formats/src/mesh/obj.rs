@@ -161,7 +161,12 @@ fn numbers<'a, const N: usize>(mut words: impl Iterator<Item = &'a str>, least: 
         };
         *value = match word.parse::<f32>() {
             Ok(number) if number.is_finite() => number,
-            _ => return Err(format!("'{}' is not a finite number", word.chars().take(24).collect::<String>())),
+            _ => {
+                return Err(format!(
+                    "'{}' is not a finite number",
+                    word.chars().take(24).collect::<String>()
+                ));
+            }
         };
     }
     Ok(values)
@@ -170,7 +175,12 @@ fn numbers<'a, const N: usize>(mut words: impl Iterator<Item = &'a str>, least: 
 /// An index of a file, which counts from 1, or backwards from -1; `NONE` where there is none.
 fn index(part: Option<&str>, count: usize, what: &str) -> Checked<u32> {
     let Some(text) = part.filter(|text| !text.is_empty()) else { return Ok(NONE) };
-    let error = || format!("{what} index '{}' is out of range, there are {count}", text.chars().take(24).collect::<String>());
+    let error = || {
+        format!(
+            "{what} index '{}' is out of range, there are {count}",
+            text.chars().take(24).collect::<String>()
+        )
+    };
     let number: i64 = text.parse().map_err(|_| error())?;
     let position = if number > 0 { number - 1 } else { count as i64 + number };
     match u32::try_from(position) {

@@ -41,6 +41,7 @@ impl Importer<'_> {
         let mut inner = bsdf;
         let mut two_sided = false;
         let mut id = bsdf.id();
+        let mut wraps_nothing = false;
         for _ in 0..MAX_DEPTH {
             match inner.kind() {
                 "twosided" => two_sided = true,
@@ -48,13 +49,21 @@ impl Importer<'_> {
                     inner.warn(format!("{} is not supported; what it wraps counts alone", inner.title()));
                     inner.ignore_all();
                 }
-                _ => break,
+                _ => {
+                    wraps_nothing = true;
+                    break;
+                }
             }
             let Some((_, next)) = inner.children("bsdf")?.into_iter().next() else {
                 return Err(inner.error(format!("{} has no bsdf within", inner.title())));
             };
             inner = next;
             id = id.or(inner.id());
+        }
+        if !wraps_nothing {
+            return Err(
+                bsdf.error(format!("more than {MAX_DEPTH} bsdfs within each other, or one within itself"))
+            );
         }
         let (kind, sides) = self.bsdf_kind(inner)?;
         let name = id.unwrap_or(match kind {
@@ -69,7 +78,8 @@ impl Importer<'_> {
             MaterialKind::GlossySpecular { .. } | MaterialKind::SimpleTransparent { .. } => "finish",
         });
         // The two sides of these do not differ.
-        let two_sided = two_sided || sides != Sides::Opaque || matches!(kind, MaterialKind::ThinDielectric { .. });
+        let two_sided =
+            two_sided || sides != Sides::Opaque || matches!(kind, MaterialKind::ThinDielectric { .. });
         let material = self.add_material(name, kind, two_sided, bsdf.source());
         Ok(Finish { material, sides })
     }
@@ -112,7 +122,9 @@ impl Importer<'_> {
             "phong" => opaque(MaterialKind::Phong {
                 diffuse: self.color_source(bsdf, "diffuse_reflectance", 0.5)?,
                 specular: self.color_source(bsdf, "specular_reflectance", 0.2)?,
-                exponent: ScalarSource::Constant(bsdf.float("exponent", 30.0, Limits::between(0.0, 1e6))? as f32),
+                exponent: ScalarSource::Constant(
+                    bsdf.float("exponent", 30.0, Limits::between(0.0, 1e6))? as f32
+                ),
             }),
             "null" => Ok((MaterialKind::PassThrough, Sides::PassThrough)),
             _ => {
@@ -193,4 +205,3 @@ fn roughness(bsdf: Element<'_>) -> Result<f32> {
     }
     Ok((alpha as f32).sqrt())
 }
-

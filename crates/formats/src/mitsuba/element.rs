@@ -1,8 +1,8 @@
 //! A plugin of the tree, with access to its values and to the plugins within it.
 
 use super::notes::Notes;
-use super::tree::{Child, Plugin, Property, Target, Tree};
 use super::transform;
+use super::tree::{Child, Plugin, Property, Target, Tree};
 use crate::Result;
 use crate::limits::Limits;
 use hyaline_math::{DVec3, Transform};

@@ -74,7 +74,8 @@ impl Importer<'_> {
         };
         let name = self.object_name(emitter.id().unwrap_or("envmap").to_owned()) + "/image";
         let uv_transform = crate::own::IDENTITY_UV;
-        let texture = TextureDescription { name: name.clone(), kind: TextureKind::Image(image), uv_transform };
+        let texture =
+            TextureDescription { name: name.clone(), kind: TextureKind::Image(image), uv_transform };
         self.scene.textures.push(Located::new(texture, emitter.source().clone()));
         let turned = Transform::from_parts(to_world.linear(), DVec3::ZERO);
         let half_turn = Transform::rotate(DVec3::Y, std::f64::consts::PI);

@@ -7,7 +7,9 @@ use super::tree::Tree;
 use crate::Result;
 use crate::assets::Assets;
 use crate::own::add_material;
-use hyaline_scene::{FileIntegrator, Located, MaterialDescription, MaterialKind, SceneDescription, SceneError, Source};
+use hyaline_scene::{
+    FileIntegrator, Located, MaterialDescription, MaterialKind, SceneDescription, SceneError, Source,
+};
 
 /// Builds a description from a tree.
 #[derive(Debug)]
@@ -41,7 +43,9 @@ impl<'a> Importer<'a> {
     /// Reads the whole scene.
     pub(super) fn read(mut self) -> Result<SceneDescription> {
         let notes = Notes::default();
-        let Some(root) = Element::root(self.tree, &notes) else { return Err(SceneError::general("an empty file")) };
+        let Some(root) = Element::root(self.tree, &notes) else {
+            return Err(SceneError::general("an empty file"));
+        };
         self.is_old = root.major_version() == 0;
         for (_, shape) in root.children("shape")? {
             self.shape(shape)?;
@@ -96,7 +100,9 @@ impl<'a> Importer<'a> {
     pub(super) fn object_name(&self, wanted: String) -> String {
         let is_taken = |name: &str| {
             let objects = self.scene.objects.iter().map(|object| object.name.as_str());
-            objects.chain(self.scene.lights.iter().map(|light| light.name.as_str())).any(|other| other == name)
+            objects
+                .chain(self.scene.lights.iter().map(|light| light.name.as_str()))
+                .any(|other| other == name)
         };
         let mut name = wanted.clone();
         let mut count = 1;

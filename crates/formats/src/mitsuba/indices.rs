@@ -41,5 +41,7 @@ pub(super) const POLYPROPYLENE: f64 = 1.49;
 /// The index of a name; `Err` is the nearest name.
 pub(super) fn by_name(name: &str) -> Result<f64, &'static str> {
     let found = INDICES.iter().find(|(known, _)| known.eq_ignore_ascii_case(name.trim()));
-    found.map(|(_, index)| *index).ok_or_else(|| nearest(name, INDICES.iter().map(|(known, _)| *known)).unwrap_or("bk7"))
+    found
+        .map(|(_, index)| *index)
+        .ok_or_else(|| nearest(name, INDICES.iter().map(|(known, _)| *known)).unwrap_or("bk7"))
 }

@@ -40,7 +40,12 @@ impl Importer<'_> {
     }
 
     /// Name of the medium of a side: its volume with its index. `None` is the world's: no volume, index 1.
-    pub(super) fn medium(&mut self, volume: Option<usize>, index: f64, source: &Source) -> Option<Located<String>> {
+    pub(super) fn medium(
+        &mut self,
+        volume: Option<usize>,
+        index: f64,
+        source: &Source,
+    ) -> Option<Located<String>> {
         if volume.is_none() && index == 1.0 {
             return None;
         }
@@ -72,7 +77,11 @@ impl Importer<'_> {
     }
 
     /// The medium of a volume that was named without an index: the only index it was used with, else 1.
-    pub(super) fn medium_of_volume(&mut self, volume: Option<usize>, source: &Source) -> Option<Located<String>> {
+    pub(super) fn medium_of_volume(
+        &mut self,
+        volume: Option<usize>,
+        source: &Source,
+    ) -> Option<Located<String>> {
         let mut indices = self.media.made.iter().filter(|(v, _, _)| *v == volume).map(|(_, index, _)| *index);
         let index = match (volume, indices.next(), indices.next()) {
             (Some(_), Some(only), None) => only,
@@ -100,7 +109,8 @@ fn coefficients(element: Element<'_>) -> Result<(Absorption, Option<Scattering>)
     let sigma_t = spectrum(element, "sigma_t", Limits::NOT_NEGATIVE)?;
     let albedo = spectrum(element, "albedo", Limits::FRACTION)?;
     if let Some(material) = element.string("material")? {
-        let message = format!("the medium preset '{}' is not known; sigma_t and albedo count", material.value);
+        let message =
+            format!("the medium preset '{}' is not known; sigma_t and albedo count", material.value);
         element.notes.warn(&material.source, message);
     }
     let (sigma_a, sigma_s) = if sigma_a.is_some() || sigma_s.is_some() {

@@ -12,6 +12,7 @@ mod importer;
 mod indices;
 mod media;
 mod notes;
+mod parse;
 mod sensor;
 mod shape;
 mod texture;
@@ -19,6 +20,8 @@ mod transform;
 mod tree;
 mod value;
 
+#[cfg(test)]
+mod fault_tests;
 #[cfg(test)]
 mod tests;
 
@@ -40,7 +43,7 @@ pub(crate) fn read(
     overrides: &[(String, String)],
 ) -> Result<SceneDescription> {
     let assets = Assets::new(base_dir);
-    let tree = tree::parse(text, file, &assets)?;
+    let tree = parse::parse(text, file, &assets)?;
     let mut scene = importer::Importer::new(&tree, &assets).read()?;
     override_imported(&mut scene, overrides)?;
     Ok(scene)

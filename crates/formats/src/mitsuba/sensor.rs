@@ -6,7 +6,9 @@ use crate::Result;
 use crate::limits::Limits;
 use crate::own::{MAX_PIXELS, MAX_SIDE, TENT_RADIUS};
 use hyaline_math::{Transform, float};
-use hyaline_scene::{CameraDescription, FileIntegrator, FilmDescription, FovAxis, Located, PixelFilter, Projection};
+use hyaline_scene::{
+    CameraDescription, FileIntegrator, FilmDescription, FovAxis, Located, PixelFilter, Projection,
+};
 
 /// Mitsuba's film size.
 const DEFAULT_SIZE: (i64, i64) = (768, 576);
@@ -124,8 +126,19 @@ fn field_of_view(sensor: Element<'_>) -> Result<(f64, FovAxis)> {
 fn read_film(film: Element<'_>) -> Result<FilmDescription> {
     // What concerns the file that Mitsuba would write.
     film.ignore(&[
-        "pixel_format", "component_format", "file_format", "filename", "gamma", "banner", "attach_log", "compensate",
-        "sample_border", "high_quality_edges", "tonemap_method", "exposure", "fill_gaps",
+        "pixel_format",
+        "component_format",
+        "file_format",
+        "filename",
+        "gamma",
+        "banner",
+        "attach_log",
+        "compensate",
+        "sample_border",
+        "high_quality_edges",
+        "tonemap_method",
+        "exposure",
+        "fill_gaps",
     ]);
     let whole = |name: &str, default: i64, low: i64, high: i64| -> Result<u32> {
         let number = film.integer(name)?.unwrap_or(default);

@@ -2,8 +2,8 @@
 
 use super::bsdf::Sides;
 use super::element::Element;
-use super::importer::Importer;
 use super::emitter;
+use super::importer::Importer;
 use crate::Result;
 use crate::limits::{LARGEST_LENGTH, Limits, SMALLEST_LENGTH};
 use hyaline_math::{DVec3, Transform};
@@ -11,6 +11,7 @@ use hyaline_scene::{
     BoundaryDescription, ColorSource, Located, MaterialKind, MeshData, ObjectDescription, ShapeDescription,
 };
 use std::f64::consts::{PI, TAU};
+use std::path::Path;
 use std::sync::Arc;
 
 /// Radii that count.
@@ -35,7 +36,7 @@ impl Importer<'_> {
             return Ok(());
         };
         let swap = flip && !form.is_turned;
-        let name = shape.id().map_or_else(|| format!("{}-{}", shape.kind(), self.scene.objects.len() + 1), str::to_owned);
+        let name = self.default_name(shape)?;
         let name = self.object_name(name);
         let emission = match shape.child("emitter")? {
             Some(emitter) => emitter::area(emitter)?,
@@ -56,6 +57,17 @@ impl Importer<'_> {
         };
         self.scene.objects.push(Located::new(object, shape.source().clone()));
         Ok(())
+    }
+
+    /// What a shape is called: by its id, its file, or its type.
+    fn default_name(&self, shape: Element<'_>) -> Result<String> {
+        let file = shape.string("filename")?;
+        let stem = file.as_ref().and_then(|name| Path::new(name.as_str()).file_stem());
+        Ok(match (shape.id(), stem) {
+            (Some(id), _) => id.to_owned(),
+            (None, Some(stem)) => stem.to_string_lossy().into_owned(),
+            (None, None) => format!("{}-{}", shape.kind(), self.scene.objects.len() + 1),
+        })
     }
 
     /// The finish of a shape and the media at it.
@@ -80,25 +92,33 @@ impl Importer<'_> {
                 if is_emitter {
                     (self.add_material("black", MaterialKind::Black, false, source), Sides::Opaque)
                 } else if has_media {
-                    (self.add_material("pass-through", MaterialKind::PassThrough, true, source), Sides::PassThrough)
+                    (
+                        self.add_material("pass-through", MaterialKind::PassThrough, true, source),
+                        Sides::PassThrough,
+                    )
                 } else {
                     (self.add_material("matte", grey, false, source), Sides::Opaque)
                 }
             }
         };
         let (inside, outside) = match sides {
-            Sides::Opaque => return Ok((material, BoundaryDescription::None)),
+            Sides::Opaque => {
+                // What surrounds a surface that lets no light through is told by what lies around it.
+                interior.into_iter().chain(exterior).for_each(|medium| medium.ignore_all());
+                return Ok((material, BoundaryDescription::None));
+            }
             Sides::Dielectric { inside, outside } => (inside, outside),
             Sides::PassThrough => (1.0, 1.0),
         };
-        let mut side = |volume: Option<Element<'_>>, index: f64, what: &str| -> Result<Option<Located<String>>> {
-            let volume = match volume {
-                Some(volume) => self.volume(volume, &format!("{name}/{what}"))?,
-                None => None,
+        let mut side =
+            |volume: Option<Element<'_>>, index: f64, what: &str| -> Result<Option<Located<String>>> {
+                let volume = match volume {
+                    Some(volume) => self.volume(volume, &format!("{name}/{what}"))?,
+                    None => None,
+                };
+                self.world_is_vacuum |= volume.is_none() && index == 1.0;
+                Ok(self.medium(volume, index, shape.source()))
             };
-            self.world_is_vacuum |= volume.is_none() && index == 1.0;
-            Ok(self.medium(volume, index, shape.source()))
-        };
         let mut inside = side(interior, inside, "interior")?;
         let mut outside = side(exterior, outside, "exterior")?;
         if swap {
@@ -145,7 +165,12 @@ impl Importer<'_> {
         let length = axis.length();
         match Transform::from_y_axis(p0, axis, DVec3::X) {
             Some(upright) if RADIUS.contain(length) => Ok(Form {
-                shape: ShapeDescription::Cylinder { radius, y: [0.0, length], phi: [0.0, TAU], capped: false },
+                shape: ShapeDescription::Cylinder {
+                    radius,
+                    y: [0.0, length],
+                    phi: [0.0, TAU],
+                    capped: false,
+                },
                 placement: to_world.after(&upright),
                 is_turned: false,
             }),

@@ -13,7 +13,12 @@ use std::sync::Arc;
 
 impl Importer<'_> {
     /// A reflectance: a constant or a texture by name.
-    pub(super) fn color_source(&mut self, owner: Element<'_>, name: &str, default: f32) -> Result<ColorSource> {
+    pub(super) fn color_source(
+        &mut self,
+        owner: Element<'_>,
+        name: &str,
+        default: f32,
+    ) -> Result<ColorSource> {
         if let Some(color) = owner.color(name, Limits::NOT_NEGATIVE)? {
             if color.iter().any(|value| *value > 1.0) {
                 owner.warn(format!("`{name}` of {} is above 1 and cut to 1", owner.title()));
@@ -29,12 +34,13 @@ impl Importer<'_> {
     /// Reads a texture once; what can't be read becomes grey.
     pub(super) fn texture(&mut self, texture: Element<'_>) -> Result<ColorSource> {
         let source = texture.source();
-        let name = match texture.id() {
-            Some(id) => id.to_owned(),
-            None => format!("texture at {}:{}", source.line, source.column),
-        };
-        if self.scene.textures.iter().any(|known| known.name == name && known.source == *source) {
-            return Ok(ColorSource::Texture(Located::new(name, source.clone())));
+        if let Some(known) = self.scene.textures.iter().find(|known| known.source == *source) {
+            return Ok(ColorSource::Texture(Located::new(known.name.clone(), source.clone())));
+        }
+        let number = format!("texture-{}", self.scene.textures.len() + 1);
+        let mut name = texture.id().map_or(number, str::to_owned);
+        while self.scene.textures.iter().any(|known| known.name == name) {
+            name.push('\'');
         }
         let grey = Ok(ColorSource::Constant([0.5; 3]));
         let (kind, rows_go_down) = match texture.kind() {
@@ -69,7 +75,9 @@ impl Importer<'_> {
         };
         let path = self.assets.path(&name);
         let reason = match ending(Path::new(name.as_str())) {
-            ending if !ENDINGS.contains(&ending.as_str()) => format!("images ending in '.{ending}' can't be read"),
+            ending if !ENDINGS.contains(&ending.as_str()) => {
+                format!("images ending in '.{ending}' can't be read")
+            }
             _ if !path.exists() => "there is no such file".to_owned(),
             _ => {
                 let encoding = raw.then_some(Encoding::Linear);

@@ -54,7 +54,8 @@ fn look_at(step: &Property) -> Result<Transform> {
     let forward = forward.ok_or_else(|| step.error("`origin` and `target` coincide"))?;
     let up = step.triple("up")?.unwrap_or_else(|| if forward.y.abs() > 0.999 { DVec3::Z } else { DVec3::Y });
     let left = up.cross(forward).try_normalize();
-    let left = left.ok_or_else(|| step.error("`up` is zero or parallel to the view").with_remedy("turn `up`"))?;
+    let left =
+        left.ok_or_else(|| step.error("`up` is zero or parallel to the view").with_remedy("turn `up`"))?;
     Transform::from_parts(DMat3::from_cols(left, forward.cross(left), forward), origin)
         .ok_or_else(|| step.error("the look-at can't be inverted"))
 }
@@ -75,6 +76,7 @@ fn matrix(step: &Property) -> Result<Transform> {
         return Err(step.error("the last row of a matrix must be 0 0 0 1"));
     }
     Transform::from_rows(rows).ok_or_else(|| {
-        step.error("the matrix can't be inverted: it makes the shape flat").with_remedy("check it for zero columns")
+        step.error("the matrix can't be inverted: it makes the shape flat")
+            .with_remedy("check it for zero columns")
     })
 }

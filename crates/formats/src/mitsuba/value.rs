@@ -84,7 +84,13 @@ impl Property {
         let color = match self.numbers(text)?.as_slice() {
             [grey] => [*grey as f32; 3],
             [r, g, b] => [*r as f32, *g as f32, *b as f32],
-            other => return Err(self.error(format!("{} must have 1 or 3 numbers, not {}", self.title(), other.len()))),
+            other => {
+                return Err(self.error(format!(
+                    "{} must have 1 or 3 numbers, not {}",
+                    self.title(),
+                    other.len()
+                )));
+            }
         };
         Ok((if self.tag == "srgb" { color.map(linear_from_srgb) } else { color }, false))
     }

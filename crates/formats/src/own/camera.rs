@@ -32,7 +32,11 @@ pub(super) fn read(
 }
 
 /// The placement, and the distance of what is looked at.
-fn placement(table: &mut Table<'_>, metres: f64, base: Option<&CameraDescription>) -> Result<(Transform, f64)> {
+fn placement(
+    table: &mut Table<'_>,
+    metres: f64,
+    base: Option<&CameraDescription>,
+) -> Result<(Transform, f64)> {
     let (from, to, up) = (table.take("from"), table.take("to"), table.take("up"));
     let transform = table.take("transform");
     if let Some(transform) = transform {
@@ -96,7 +100,9 @@ fn projection(
         "thin-lens" => {
             let (fov, fov_axis) = field_of_view(table, base)?;
             let (radius, focus) = match base {
-                Some(Projection::ThinLens { lens_radius, focus_distance, .. }) => (*lens_radius, *focus_distance),
+                Some(Projection::ThinLens { lens_radius, focus_distance, .. }) => {
+                    (*lens_radius, *focus_distance)
+                }
                 _ => (0.01 / metres, distance),
             };
             Projection::ThinLens {
@@ -120,7 +126,9 @@ fn projection(
                 Some(Projection::Fisheye { fov }) => *fov,
                 _ => std::f64::consts::PI,
             };
-            Projection::Fisheye { fov: table.read("fov", default, |f| f.angle(Limits::above_to(0.0, 360.0)))? }
+            Projection::Fisheye {
+                fov: table.read("fov", default, |f| f.angle(Limits::above_to(0.0, 360.0)))?,
+            }
         }
         "spherical" => {
             let (longitude, latitude) = match base {

@@ -97,23 +97,48 @@ pub(crate) fn parse_value(text: &str, source: &Source) -> Result<Option<Node>> {
 
 /// Stops chains of dotted keys that would nest tables without bound.
 fn refuse_long_keys(text: &str, places: &Places<'_>) -> Result<()> {
-    let mut offset = 0;
-    for line in text.split_inclusive('\n') {
-        let mut dots = 0;
-        for (i, byte) in line.bytes().enumerate() {
-            match byte {
-                b'.' => dots += 1,
-                b',' | b'=' | b'{' | b'}' | b'[' | b']' => dots = 0,
-                _ => {}
+    let bytes = text.as_bytes();
+    let (mut offset, mut dots) = (0, 0);
+    while let Some(byte) = bytes.get(offset) {
+        match byte {
+            b'.' => dots += 1,
+            b',' | b'=' | b'{' | b'}' | b'[' | b']' | b'\n' => dots = 0,
+            b'#' => {
+                let rest = &bytes[offset..];
+                offset += rest.iter().position(|byte| *byte == b'\n').unwrap_or(rest.len());
+                continue;
             }
-            if dots > MAX_DOTS {
-                let source = places.source(offset + i..offset + i + 1);
-                return Err(SceneError::at(&source, format!("more than {MAX_DOTS} dots in a row of keys")));
+            b'"' | b'\'' => {
+                offset = end_of_string(bytes, offset);
+                continue;
             }
+            _ => {}
         }
-        offset += line.len();
+        offset += 1;
+        if dots > MAX_DOTS {
+            let source = places.source(offset - 1..offset);
+            return Err(SceneError::at(&source, format!("more than {MAX_DOTS} dots in a row of keys")));
+        }
     }
     Ok(())
+}
+
+/// Offset behind the string that starts at `start`, of one line or of several.
+fn end_of_string(bytes: &[u8], start: usize) -> usize {
+    let quote = bytes[start];
+    let is_long = bytes[start..].starts_with(&[quote; 3]);
+    let mut offset = start + if is_long { 3 } else { 1 };
+    while let Some(byte) = bytes.get(offset) {
+        match byte {
+            b'\\' if quote == b'"' => offset += 1,
+            b'\n' if !is_long => return offset,
+            byte if *byte == quote && !is_long => return offset + 1,
+            byte if *byte == quote && bytes[offset..].starts_with(&[quote; 3]) => return offset + 3,
+            _ => {}
+        }
+        offset += 1;
+    }
+    bytes.len()
 }
 
 fn syntax_error(places: &Places<'_>, error: &toml::de::Error) -> SceneError {
@@ -143,7 +168,9 @@ impl Converter<'_> {
                 Err(_) => return Err(SceneError::at(&source, "not a number")),
             },
             DeValue::Boolean(boolean) => Value::Boolean(boolean),
-            DeValue::Datetime(_) => return Err(SceneError::at(&source, "dates and times mean nothing in a scene")),
+            DeValue::Datetime(_) => {
+                return Err(SceneError::at(&source, "dates and times mean nothing in a scene"));
+            }
             DeValue::Array(array) => {
                 Value::Array(array.into_iter().map(|item| self.node(item, depth + 1)).collect::<Result<_>>()?)
             }
@@ -198,7 +225,15 @@ mod tests {
         assert!(parse_text(&format!("{}a = 1", "a.".repeat(200_000))).is_err());
         assert!(parse_text(&format!("a = {}", "[".repeat(200_000))).is_err());
         assert!(parse_text(&format!("[{}a]", "a.".repeat(200_000))).is_err());
+        let hidden = format!("x = {{ a = \"\"\"\n\"\"\", {}b = 1 }}", "b.".repeat(200_000));
+        assert!(parse_text(&hidden).unwrap_err().message.contains("dots in a row"));
+        let harmless = format!("# {0}\na = '{0}'\nb = \"{0}\\\"{0}\"\n", ".".repeat(100));
+        assert!(parse_text(&harmless).is_ok(), "dots in comments and strings are no keys");
         assert!(parse_text(&format!("a = {}1{}", "{a = ".repeat(70), "}".repeat(70))).is_err());
-        assert!(parse_value(&format!("{{{}a = 1}}", "a.".repeat(200_000)), &Source::built_in()).unwrap().is_none());
+        assert!(
+            parse_value(&format!("{{{}a = 1}}", "a.".repeat(200_000)), &Source::built_in())
+                .unwrap()
+                .is_none()
+        );
     }
 }

@@ -75,12 +75,7 @@ impl<'a> Field<'a> {
 
     /// A finite number within limits.
     pub(crate) fn number(&self, limits: Limits) -> Result<f64> {
-        let number = match self.node.value {
-            Value::Integer(integer) => integer as f64,
-            Value::Float(float) => float,
-            _ => return Err(self.wrong_type("a number")),
-        };
-        self.check(number, limits)
+        self.check(self.any_number()?, limits)
     }
 
     /// A finite number within limits that `f32` can hold.
@@ -101,7 +96,7 @@ impl<'a> Field<'a> {
                 let length = unit::parse_length(text);
                 length.map_err(|fault| self.error(format!("`{}` {fault}", self.key)))? / metres
             }
-            Value::Integer(_) | Value::Float(_) => self.number(Limits::ANY)?,
+            Value::Integer(_) | Value::Float(_) => self.any_number()?,
             _ => return Err(self.wrong_type("a length: a number, or a string such as \"2 mm\"")),
         };
         let length = self.check(length, limits)?;
@@ -110,6 +105,15 @@ impl<'a> Field<'a> {
         }
         let is_lost = length.abs() < SMALLEST_LENGTH && !limits.contain(0.0);
         if is_lost { Err(self.error(format!("`{}` is too small to count", self.key))) } else { Ok(length) }
+    }
+
+    /// A number that may yet be NaN or infinite.
+    fn any_number(&self) -> Result<f64> {
+        match self.node.value {
+            Value::Integer(integer) => Ok(integer as f64),
+            Value::Float(float) => Ok(float),
+            _ => Err(self.wrong_type("a number")),
+        }
     }
 
     fn check(&self, number: f64, limits: Limits) -> Result<f64> {
@@ -147,7 +151,10 @@ impl<'a> Field<'a> {
     /// The values of a table with free keys, in order.
     pub(crate) fn entries(&self) -> Result<Vec<(Field<'a>, &'a Source)>> {
         let Value::Table(entries) = &self.node.value else { return Err(self.wrong_type("a table")) };
-        Ok(entries.iter().map(|entry| (Field { key: &entry.key, node: &entry.node }, &entry.source)).collect())
+        Ok(entries
+            .iter()
+            .map(|entry| (Field { key: &entry.key, node: &entry.node }, &entry.source))
+            .collect())
     }
 
     /// A table with known keys; `what` names it in messages.

@@ -25,7 +25,10 @@ fn colors_are_triples_hexadecimal_or_grey() {
     assert_eq!(with("[0.5, 1, 0]", |x| x.color(Limits::FRACTION)).unwrap(), [0.5, 1.0, 0.0]);
     assert_eq!(with("0.25", |x| x.color(Limits::FRACTION)).unwrap(), [0.25; 3]);
     assert_eq!(with("\"#ff0000\"", |x| x.color(Limits::FRACTION)).unwrap(), [1.0, 0.0, 0.0]);
-    assert!(with("\"#ff0000\"", |x| x.color(Limits::TRANSMITTANCE)).is_err(), "limits hold for all spellings");
+    assert!(
+        with("\"#ff0000\"", |x| x.color(Limits::TRANSMITTANCE)).is_err(),
+        "limits hold for all spellings"
+    );
     assert!(with("[0.5, 1.5, 0]", |x| x.color(Limits::FRACTION)).is_err());
     assert!(with("[0.5, 1]", |x| x.color(Limits::FRACTION)).is_err());
     assert!(with("1e39", |x| x.color(Limits::NOT_NEGATIVE)).is_err(), "f32 can't hold it");

@@ -51,7 +51,12 @@ pub(crate) fn override_imported(scene: &mut SceneDescription, overrides: &[(Stri
     table.finish()
 }
 
-fn position<'a>(what: &str, name: &str, source: &Source, names: impl Iterator<Item = &'a str>) -> Result<usize> {
+fn position<'a>(
+    what: &str,
+    name: &str,
+    source: &Source,
+    names: impl Iterator<Item = &'a str>,
+) -> Result<usize> {
     let names: Vec<&str> = names.collect();
     names.iter().position(|candidate| *candidate == name).ok_or_else(|| {
         let error = SceneError::at(source, format!("no {what} is named '{name}'"));

@@ -20,8 +20,8 @@ use crate::Result;
 use crate::limits::Limits;
 use hyaline_math::{DVec3, Transform};
 use hyaline_scene::{
-    BoundaryDescription, LightDescription, LightKind, Located, MaterialKind, ObjectDescription, Rgb, SceneError,
-    SpotFalloff, TextureDescription, TextureKind,
+    BoundaryDescription, LightDescription, LightKind, Located, MaterialKind, ObjectDescription, Rgb,
+    SceneError, SpotFalloff, TextureDescription, TextureKind,
 };
 
 const KINDS: [&str; 9] =
@@ -55,7 +55,8 @@ impl Reader<'_> {
 
     fn area_light(&mut self, kind: Field<'_>, mut table: Table<'_>, name: String) -> Result<()> {
         if let Some(object) = self.scene.objects.iter().find(|object| object.name == name) {
-            let message = format!("a light and an object are named '{name}'; the other is at {}", object.source);
+            let message =
+                format!("a light and an object are named '{name}'; the other is at {}", object.source);
             return Err(SceneError::at(table.source, message).with_remedy("rename one of them"));
         }
         let shape = self.shape(kind, &mut table)?;
@@ -69,7 +70,8 @@ impl Reader<'_> {
         table.finish()?;
         let boundary = BoundaryDescription::None;
         let slot_materials = Vec::new();
-        let object = ObjectDescription { name, shape, placement, boundary, material, slot_materials, emission };
+        let object =
+            ObjectDescription { name, shape, placement, boundary, material, slot_materials, emission };
         self.scene.objects.push(Located::new(object, source));
         Ok(())
     }
@@ -101,8 +103,11 @@ impl Reader<'_> {
     /// Radiant intensity, as given or from the power of a light that shines into `solid_angle`.
     fn intensity(&self, table: &mut Table<'_>, solid_angle: f64) -> Result<Rgb> {
         let Some(field) = table.take_one(&["power", "radiant_intensity"])? else {
-            let error = SceneError::at(table.source, format!("{} needs `power` or `radiant_intensity`", table.what));
-            return Err(error.with_remedy("add `power = [r, g, b]` (W) or `radiant_intensity = [r, g, b]` (W/sr)"));
+            let error =
+                SceneError::at(table.source, format!("{} needs `power` or `radiant_intensity`", table.what));
+            return Err(
+                error.with_remedy("add `power = [r, g, b]` (W) or `radiant_intensity = [r, g, b]` (W/sr)")
+            );
         };
         let color = field.color(Limits::NOT_NEGATIVE)?;
         let intensity = if field.key == "power" { intensity_from_power(color, solid_angle) } else { color };

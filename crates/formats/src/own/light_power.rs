@@ -68,8 +68,12 @@ mod tests {
     fn spot_integrals_agree_with_quadrature() {
         for falloff in [SpotFalloff::Smooth, SpotFalloff::LinearInAngle] {
             for (inner, outer) in [(0.0, 0.5), (0.3, 0.5), (0.1, 1.5), (1.0, 3.1), (0.2, 0.2 + 1e-5)] {
-                let (closed, numeric) = (spot_solid_angle(inner, outer, falloff), by_quadrature(inner, outer, falloff));
-                assert!((closed - numeric).abs() < 2e-4 * numeric, "{falloff:?} {inner} {outer}: {closed} {numeric}");
+                let (closed, numeric) =
+                    (spot_solid_angle(inner, outer, falloff), by_quadrature(inner, outer, falloff));
+                assert!(
+                    (closed - numeric).abs() < 2e-4 * numeric,
+                    "{falloff:?} {inner} {outer}: {closed} {numeric}"
+                );
             }
         }
     }

@@ -86,7 +86,10 @@ impl Reader<'_> {
             "simple-transparent" => simple_transparent(table)?,
             "dielectric" => MaterialKind::Dielectric {
                 roughness: self.roughness(table)?,
-                tint: (self.reflectance(table, "reflected", 1.0)?, self.reflectance(table, "transmitted", 1.0)?),
+                tint: (
+                    self.reflectance(table, "reflected", 1.0)?,
+                    self.reflectance(table, "transmitted", 1.0)?,
+                ),
             },
             "thin-dielectric" => MaterialKind::ThinDielectric {
                 ior: table.read("ior", 1.5, |field| field.number_f32(Limits::above_to(0.0, 100.0)))?,
@@ -100,7 +103,9 @@ impl Reader<'_> {
 
     fn reflectance(&mut self, table: &mut Table<'_>, key: &'static str, default: f32) -> Result<ColorSource> {
         let field = table.take(key);
-        field.map_or(Ok(ColorSource::Constant([default; 3])), |field| self.color_source(field, Limits::FRACTION))
+        field.map_or(Ok(ColorSource::Constant([default; 3])), |field| {
+            self.color_source(field, Limits::FRACTION)
+        })
     }
 
     fn exponent(&mut self, table: &mut Table<'_>) -> Result<ScalarSource> {

@@ -26,7 +26,8 @@ pub(super) fn read(table: &mut Table<'_>, metres: f64, base: MediumDescription) 
     let g = table.read("g", old.g, |field| field.number_f32(Limits::inside(-1.0, 1.0)))?;
     let scattering = (sigma_s != [0.0; 3]).then_some(Scattering { sigma_s, g });
     let priorities = (i64::from(i32::MIN), i64::from(i32::MAX));
-    let priority = table.read("priority", i64::from(base.priority), |f| f.integer(priorities.0, priorities.1))?;
+    let priority =
+        table.read("priority", i64::from(base.priority), |f| f.integer(priorities.0, priorities.1))?;
     Ok(MediumDescription { name: base.name, index, absorption, scattering, priority: priority as i32 })
 }
 
@@ -51,7 +52,9 @@ fn index(field: Field<'_>) -> Result<IndexDescription> {
     }
     match (form.key, abbe) {
         ("nd", None) => Err(form.error("`nd` needs `abbe`; for an index without dispersion write ior = 1.5")),
-        ("nd", Some(abbe)) => Ok(IndexDescription::Abbe { nd: form.number(IOR)?, abbe: abbe.number(Limits::POSITIVE)? }),
+        ("nd", Some(abbe)) => {
+            Ok(IndexDescription::Abbe { nd: form.number(IOR)?, abbe: abbe.number(Limits::POSITIVE)? })
+        }
         ("cauchy", _) => cauchy(form),
         _ => sellmeier(form),
     }

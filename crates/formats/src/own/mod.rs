@@ -7,6 +7,7 @@ mod camera;
 mod document;
 mod field;
 mod film;
+mod flat;
 mod imported;
 mod light;
 mod light_power;

@@ -74,7 +74,8 @@ impl Reader<'_> {
     /// The object that an instance repeats.
     fn original(&self, of: &Located<String>) -> Result<&ObjectDescription> {
         let Some(original) = self.scene.objects.iter().find(|object| object.name == of.value) else {
-            let error = SceneError::at(&of.source, format!("no object before this one is named '{}'", of.value));
+            let error =
+                SceneError::at(&of.source, format!("no object before this one is named '{}'", of.value));
             let names = self.scene.objects.iter().map(|object| object.name.as_str());
             let nearest = crate::nearest::nearest(&of.value, names);
             return Err(error.with_remedy(match nearest {
@@ -131,12 +132,14 @@ impl Reader<'_> {
             }
             (None, Some(base)) => (base.color, base.quantity),
             (None, None) => {
-                let error = SceneError::at(table.source, format!("{} needs `radiance` or `power`", table.what));
+                let error =
+                    SceneError::at(table.source, format!("{} needs `radiance` or `power`", table.what));
                 let remedy = "add `radiance = [r, g, b]` (W/sr/m²) or `power = [r, g, b]` (W)";
                 return Err(error.with_remedy(remedy));
             }
         };
-        let (two_sided, visible) = base.map_or((false, true), |base| (base.two_sided, base.visible_to_camera));
+        let (two_sided, visible) =
+            base.map_or((false, true), |base| (base.two_sided, base.visible_to_camera));
         Ok(Emission {
             color,
             quantity,
@@ -157,7 +160,9 @@ pub(super) fn boundary(table: &mut Table<'_>) -> Result<Option<BoundaryDescripti
     let inside = table.read_some("inside", |field| field.name())?;
     table.finish()?;
     if outside.is_none() && inside.is_none() {
-        return Err(field.error("an interface needs `outside` or `inside`; what is left out is the world's medium"));
+        return Err(
+            field.error("an interface needs `outside` or `inside`; what is left out is the world's medium")
+        );
     }
     Ok(Some(BoundaryDescription::Interface { outside, inside }))
 }

@@ -18,7 +18,8 @@ pub(crate) fn apply(root: &mut Node, overrides: &[(String, String)]) -> Result<(
     overrides.iter().try_for_each(|(path, text)| {
         let source = Source::file(format!("--set {path}={text}"));
         let segments = split_path(path).ok_or_else(|| {
-            SceneError::at(&source, format!("'{path}' is no path of keys")).with_remedy("write it as in camera.fov=30")
+            SceneError::at(&source, format!("'{path}' is no path of keys"))
+                .with_remedy("write it as in camera.fov=30")
         })?;
         let value = document::parse_value(text, &source)?
             .unwrap_or_else(|| Node { value: Value::String(text.clone()), source: source.clone() });
@@ -90,7 +91,10 @@ impl Setter<'_> {
             },
             other => {
                 let kind = other.kind();
-                Err(SceneError::at(self.source, format!("{}: there is no '{segment}' within {kind}", self.path)))
+                Err(SceneError::at(
+                    self.source,
+                    format!("{}: there is no '{segment}' within {kind}", self.path),
+                ))
             }
         }
     }
@@ -98,13 +102,18 @@ impl Setter<'_> {
     /// Which element of the array under `key` a path means.
     fn element(&self, items: &[Node], key: &str, segments: &[String]) -> Result<Element> {
         let segment = &segments[0];
-        let names: Vec<String> = items.iter().enumerate().map(|(i, item)| element_name(item, key, i)).collect();
+        let names: Vec<String> =
+            items.iter().enumerate().map(|(i, item)| element_name(item, key, i)).collect();
         if let Some(index) = names.iter().position(|name| name == segment) {
             return Ok(Element::At(index));
         }
         if let Ok(index) = segment.parse::<usize>() {
             let message = format!("{}: index {index} is out of range, there are {}", self.path, items.len());
-            return if index < items.len() { Ok(Element::At(index)) } else { Err(SceneError::at(self.source, message)) };
+            return if index < items.len() {
+                Ok(Element::At(index))
+            } else {
+                Err(SceneError::at(self.source, message))
+            };
         }
         if let [Node { value: Value::Table(entries), .. }] = items
             && (segments.len() == 1 || entries.iter().any(|entry| entry.key == *segment))

@@ -37,8 +37,7 @@ pub(crate) fn add_material(
 /// An object named like another.
 pub(super) fn complete(scene: &mut SceneDescription) -> Result<()> {
     let described: Vec<String> = scene.media.iter().map(|medium| medium.name.clone()).collect();
-    let is_vacuum =
-        |name: &str| VACUUM.contains(&name) && !described.iter().any(|medium| medium == name);
+    let is_vacuum = |name: &str| VACUUM.contains(&name) && !described.iter().any(|medium| medium == name);
     if scene.surrounding.as_ref().is_some_and(|name| is_vacuum(name)) {
         scene.surrounding = None;
     }
@@ -77,7 +76,8 @@ pub(super) fn complete(scene: &mut SceneDescription) -> Result<()> {
     }
     for (name, source) in missing {
         let index = IndexDescription::Constant(1.0);
-        let medium = MediumDescription { name, index, absorption: Absorption::None, scattering: None, priority: 0 };
+        let medium =
+            MediumDescription { name, index, absorption: Absorption::None, scattering: None, priority: 0 };
         scene.media.push(Located::new(medium, source));
     }
     require_distinct_names(scene)

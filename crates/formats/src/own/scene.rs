@@ -8,8 +8,8 @@ use super::{camera, film, medium, references, settings};
 use crate::assets::Assets;
 use crate::{Result, unit};
 use hyaline_scene::{
-    IndexDescription, Located, MaterialDescription, MaterialKind, MediumDescription, SceneDescription, SceneError,
-    Source,
+    IndexDescription, Located, MaterialDescription, MaterialKind, MediumDescription, SceneDescription,
+    SceneError, Source,
 };
 
 /// The version of the format that is read.
@@ -131,7 +131,8 @@ impl<'a> Reader<'a> {
                 let message = format!("two {what}s are named '{name}'; the other is at {first}");
                 return Err(SceneError::at(&place, message).with_remedy("rename one of them"));
             }
-            table.what = if what == "camera" { format!("camera '{name}'") } else { format!("{kind} '{name}'") };
+            table.what =
+                if what == "camera" { format!("camera '{name}'") } else { format!("{kind} '{name}'") };
             names.push((name.clone(), place));
             read(self, table, name)?;
         }
@@ -161,7 +162,12 @@ impl<'a> Reader<'a> {
     }
 
     /// Name of a finish that nobody described, added to the materials at its first use.
-    pub(super) fn implicit_material(&mut self, name: &str, kind: MaterialKind, source: &Source) -> Located<String> {
+    pub(super) fn implicit_material(
+        &mut self,
+        name: &str,
+        kind: MaterialKind,
+        source: &Source,
+    ) -> Located<String> {
         let wanted = MaterialDescription { name: name.to_owned(), kind, two_sided: true };
         let name = references::add_material(&mut self.scene.materials, wanted, source);
         Located::new(name, source.clone())

@@ -101,73 +101,15 @@ impl Reader<'_> {
         })
     }
 
-    fn disc(&self, table: &mut Table<'_>, hole: Option<f64>) -> Result<ShapeDescription> {
-        let center = self.point(table, "center")?;
-        let normal = self.normal(table, center)?;
-        let radius = self.positive(table, "radius", 1.0)?;
-        let Some(hole) = hole else {
-            return Ok(ShapeDescription::Disc { center, normal, radius, inner_radius: 0.0 });
-        };
-        let inner = table.take("inner_radius");
-        let inner_radius =
-            inner.map_or(Ok(hole * radius), |field| field.length(self.metres, Limits::NOT_NEGATIVE))?;
-        match inner {
-            Some(field) if inner_radius >= radius => {
-                Err(field.error(format!("`inner_radius` must be below `radius`, which is {radius}")))
-            }
-            _ => Ok(ShapeDescription::Disc { center, normal, radius, inner_radius }),
-        }
-    }
-
-    /// `normal`, or the direction from the center `to` a point; +y by default.
-    fn normal(&self, table: &mut Table<'_>, center: DVec3) -> Result<DVec3> {
-        match table.take_one(&["normal", "to"])? {
-            None => Ok(DVec3::Y),
-            Some(field) if field.key == "normal" => field.direction(),
-            Some(field) => {
-                let direction = field.point(self.metres)? - center;
-                let error = || field.error("`to` coincides with the center").with_remedy("aim elsewhere");
-                direction.try_normalize().ok_or_else(error)
-            }
-        }
-    }
-
-    fn rectangle(&self, table: &mut Table<'_>) -> Result<ShapeDescription> {
-        if let Some(corner) = table.take("corner") {
-            let corner = corner.point(self.metres)?;
-            let field = table.require("edges", "[[1, 0, 0], [0, 1, 0]]")?;
-            let [edge_u, edge_v] = field.array(|item| item.point(self.metres))?;
-            if edge_u.cross(edge_v).try_normalize().is_none() {
-                return Err(field.error("the edges are parallel or have no length"));
-            }
-            let (half_u, half_v) = (0.5 * edge_u, 0.5 * edge_v);
-            return Ok(ShapeDescription::Rectangle { center: corner + half_u + half_v, half_u, half_v });
-        }
-        let center = self.point(table, "center")?;
-        let size = |field: Field<'_>| field.length(self.metres, Limits::POSITIVE);
-        let [width, height] = table.read("size", [1.0; 2], |field| match field.items() {
-            Ok(_) => field.array(size),
-            Err(_) => size(field).map(|size| [size; 2]),
-        })?;
-        let normal = self.normal(table, center)?.normalize();
-        let up = table.take("up");
-        let wanted = up.map_or(Ok(DVec3::Y), |up| up.direction())?;
-        let u = match wanted.normalize().cross(normal).try_normalize() {
-            Some(u) => u,
-            None if up.is_none() => DVec3::X,
-            None => return Err(up.map_or_else(|| table_error(table), |up| up.error("`up` is parallel to the normal"))),
-        };
-        let v = normal.cross(u);
-        Ok(ShapeDescription::Rectangle { center, half_u: 0.5 * width * u, half_v: 0.5 * height * v })
-    }
-
     fn cuboid(&self, table: &mut Table<'_>) -> Result<ShapeDescription> {
         let ends = (table.take("min"), table.take("max"));
         let (center, size) = (table.take("center"), table.take("size"));
         let (min, max) = match ends {
             (Some(min_field), Some(max_field)) => {
                 if let Some(other) = center.or(size) {
-                    return Err(other.error(format!("`{}` and `min` exclude each other; keep one", other.key)));
+                    return Err(
+                        other.error(format!("`{}` and `min` exclude each other; keep one", other.key))
+                    );
                 }
                 let (min, max) = (min_field.point(self.metres)?, max_field.point(self.metres)?);
                 if !min.cmplt(max).all() {
@@ -223,11 +165,16 @@ impl Reader<'_> {
                 return Err(kind.error(format!("a {} can't be part of a compound", kind.string()?)));
             }
             let shape = self.shape(kind, &mut table)?;
-            let placement = table.read("transform", Transform::IDENTITY, |f| transform::read(f, self.metres))?;
+            let placement =
+                table.read("transform", Transform::IDENTITY, |f| transform::read(f, self.metres))?;
             table.finish()?;
             parts.push(ShapePart { shape, placement });
         }
-        if parts.is_empty() { Err(field.error("`parts` is empty")) } else { Ok(ShapeDescription::Compound { parts }) }
+        if parts.is_empty() {
+            Err(field.error("`parts` is empty"))
+        } else {
+            Ok(ShapeDescription::Compound { parts })
+        }
     }
 
     /// Points (radius, height) of a profile.
@@ -251,10 +198,6 @@ impl Reader<'_> {
     }
 }
 
-fn table_error(table: &Table<'_>) -> hyaline_scene::SceneError {
-    hyaline_scene::SceneError::at(table.source, format!("{} has no orientation", table.what))
-}
-
 /// A mesh made in code.
 fn generated(table: &mut Table<'_>) -> Result<ShapeDescription> {
     let forms =
@@ -274,8 +217,11 @@ pub(super) fn curve(table: &mut Table<'_>) -> Result<ProfileCurve> {
 /// A range of angles in degrees, from 0 to `whole` radians by default.
 fn angles(table: &mut Table<'_>, key: &'static str, whole: f64) -> Result<[f64; 2]> {
     table.read(key, [0.0, whole], |field| {
-        let limits =
-            if whole == TAU { Limits::between(-360.0, 720.0) } else { Limits::between(0.0, whole.to_degrees()) };
+        let limits = if whole == TAU {
+            Limits::between(-360.0, 720.0)
+        } else {
+            Limits::between(0.0, whole.to_degrees())
+        };
         let [from, to] = field.array(|item| item.angle(limits))?;
         let is_range = from < to && to - from <= whole * (1.0 + 1e-12);
         if is_range {

@@ -38,7 +38,10 @@ impl<'a> Table<'a> {
     /// The value of a key, if it is there.
     pub(crate) fn take(&mut self, key: &'static str) -> Option<Field<'a>> {
         self.asked.push(key);
-        self.entries.iter().find(|entry| entry.key == key).map(|entry| Field { key: &entry.key, node: &entry.node })
+        self.entries
+            .iter()
+            .find(|entry| entry.key == key)
+            .map(|entry| Field { key: &entry.key, node: &entry.node })
     }
 
     /// The value of a key, converted; `default` where the key is absent.
@@ -91,7 +94,9 @@ impl<'a> Table<'a> {
         for key in keys {
             let Some(field) = self.take(key) else { continue };
             if let Some(first) = found {
-                return Err(field.error(format!("`{}` and `{}` exclude each other; keep one", first.key, field.key)));
+                return Err(
+                    field.error(format!("`{}` and `{}` exclude each other; keep one", first.key, field.key))
+                );
             }
             found = Some(field);
         }
@@ -133,7 +138,10 @@ mod tests {
             table.finish().unwrap_err()
         });
         let text = error.to_string();
-        assert!(text.starts_with("a.toml:2:1: unknown key `centre` in scene; did you mean 'center'?"), "{text}");
+        assert!(
+            text.starts_with("a.toml:2:1: unknown key `centre` in scene; did you mean 'center'?"),
+            "{text}"
+        );
     }
 
     #[test]

@@ -32,7 +32,8 @@ impl Reader<'_> {
     pub(super) fn inline_texture(&mut self, field: Field<'_>) -> Result<Located<String>> {
         let mut table = field.table(format!("`{}`", field.key))?;
         let Some(form) = table.take_one(&["texture", "checker", "image"])? else {
-            let error = field.error(format!("`{}` as a table needs `texture`, `checker` or `image`", field.key));
+            let error =
+                field.error(format!("`{}` as a table needs `texture`, `checker` or `image`", field.key));
             return Err(error.with_remedy("a plain color is [r, g, b], \"#rrggbb\" or a number"));
         };
         let kind = match form.key {
@@ -51,7 +52,7 @@ impl Reader<'_> {
         };
         let uv_transform = uv_transform(&mut table)?;
         table.finish()?;
-        let mut name = format!("{} at {}", form.key, field.source());
+        let mut name = format!("{}-{}", form.key, self.scene.textures.len() + 1);
         while self.scene.textures.iter().any(|texture| texture.name == name) {
             name.push('\'');
         }

@@ -28,7 +28,8 @@ fn step(field: Field<'_>, metres: f64) -> Result<Transform> {
     let mut table = field.table("transform")?;
     let keys = ["translate", "rotate", "scale", "matrix"];
     let chosen = table.take_one(&keys).map_err(|error| {
-        error.with_remedy("several steps are an array: transform = [{ scale = 2 }, { translate = [0, 1, 0] }]")
+        error
+            .with_remedy("several steps are an array: transform = [{ scale = 2 }, { translate = [0, 1, 0] }]")
     })?;
     table.finish()?;
     let Some(chosen) = chosen else {

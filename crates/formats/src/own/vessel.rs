@@ -49,7 +49,8 @@ impl Reader<'_> {
         let radius = table.require("radius", "0.1")?.length(self.metres, Limits::POSITIVE)?;
         let part = |field: Field<'_>| {
             let part = field.length(self.metres, Limits::NOT_NEGATIVE)?;
-            let error = || field.error(format!("`{}` must be below the radius of the sphere, {radius}", field.key));
+            let error =
+                || field.error(format!("`{}` must be below the radius of the sphere, {radius}", field.key));
             if part < radius { Ok(part) } else { Err(error()) }
         };
         let foot = table.read("foot", 0.5 * radius, part)?;

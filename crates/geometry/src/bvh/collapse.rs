@@ -8,6 +8,7 @@
 //! §3.1, eqs. 1-4.
 
 use super::binary::{self, BinaryNode};
+use super::simd::collect_in_large_pages;
 use super::node::{Child, MAX_DEPTH, Node, Tree, WIDTH};
 use hyaline_math::Bounds;
 
@@ -29,7 +30,8 @@ pub(crate) fn build(boxes: &[Bounds], leaf_size: u32) -> (Tree, Vec<Vec<u32>>) {
         let plans = plan(binary, leaf_size);
         let mut emitter = Emitter { binary, plans: &plans, nodes: Vec::new(), leaves: Vec::new() };
         let root = emitter.emit();
-        (Tree { nodes: emitter.nodes, root: Some(root), bounds: binary[0].bounds }, emitter.leaves)
+        let nodes = collect_in_large_pages(emitter.nodes.into_iter());
+        (Tree { nodes, root: Some(root), bounds: binary[0].bounds }, emitter.leaves)
     };
     let built = binary::optimized(boxes).map(|binary| build_from(&binary));
     match built.filter(|(tree, _)| depth(&tree.nodes) <= MAX_DEPTH) {
@@ -86,8 +88,7 @@ fn plan_inner(left: &Plan, right: &Plan, leaf_cost: f32, node_cost: f32) -> Plan
         best
     };
     let (children_cost, on_left) = share_out(WIDTH);
-    let mut plan = Plan::default();
-    plan.is_leaf = leaf_cost <= children_cost + node_cost;
+    let mut plan = Plan { is_leaf: leaf_cost <= children_cost + node_cost, ..Plan::default() };
     plan.lefts[0] = on_left;
     plan.costs[0] = leaf_cost.min(children_cost + node_cost);
     for slots in 2..=SPLITS {

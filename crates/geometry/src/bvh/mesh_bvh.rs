@@ -1,11 +1,11 @@
 //! A mesh with its tree, and the search for its crossings.
 
+use super::collapse;
 use super::node::{BLOCK, Block, Tree};
 use super::query::Sink;
 use super::ray::{BoxRay, FilterRay, SlabRay};
-use super::simd::{Lanes, prefetch};
+use super::simd::{Lanes, collect_in_large_pages, prefetch};
 use super::traverse::{Visitor, traverse};
-use super::collapse;
 use crate::hit::Candidate;
 use crate::mesh::Mesh;
 use crate::mesh::triangle::LocalRay;
@@ -28,7 +28,7 @@ impl MeshBvh {
         let boxes: Vec<Bounds> =
             faces.into_par_iter().map(|face| Bounds::from_points(mesh.corners(face))).collect();
         let (tree, leaves) = collapse::build(&boxes, BLOCK as u32);
-        let blocks = leaves.par_iter().map(|faces| block(&mesh, faces)).collect();
+        let blocks = collect_in_large_pages(leaves.iter().map(|faces| block(&mesh, faces)));
         Self { mesh, tree, blocks }
     }
 
@@ -44,7 +44,14 @@ impl MeshBvh {
 
     /// Gives the crossings of the ray to the sink.
     #[inline(always)]
-    pub(crate) fn search<L: Lanes, K: Sink>(&self, lanes: L, ray: &LocalRay, slabs: &SlabRay, item: u32, sink: &mut K) -> ControlFlow<()> {
+    pub(crate) fn search<L: Lanes, K: Sink>(
+        &self,
+        lanes: L,
+        ray: &LocalRay,
+        slabs: &SlabRay,
+        item: u32,
+        sink: &mut K,
+    ) -> ControlFlow<()> {
         let registers = lanes.prepare_triangles(&FilterRay::new(ray, slabs, &self.tree));
         let mut faces = Faces { lanes, registers, blocks: &self.blocks, ray, item, sink };
         traverse(lanes, &self.tree, &BoxRay::new(slabs, &self.tree), &mut faces)

@@ -48,7 +48,10 @@ impl Child {
     }
 }
 
-/// Eight boxes, plane by plane, and what they hold. Children that are absent have a box that nothing meets.
+/// Eight boxes, plane by plane, and what they hold.
+///
+/// Children that are absent have a box that no finite ray meets; they refer to a leaf, so that even a ray that is NaN
+/// comes to an end.
 #[derive(Clone, Debug, PartialEq)]
 #[repr(C, align(64))]
 pub(crate) struct Node {
@@ -61,7 +64,7 @@ impl Node {
     /// A node without children.
     pub(crate) fn empty() -> Self {
         let (low, high) = ([f32::INFINITY; WIDTH], [f32::NEG_INFINITY; WIDTH]);
-        Self { planes: [low, high, low, high, low, high], children: [Child(0); WIDTH] }
+        Self { planes: [low, high, low, high, low, high], children: [Child::leaf(0); WIDTH] }
     }
 
     pub(crate) fn set(&mut self, slot: usize, bounds: &Bounds, child: Child) {

@@ -44,8 +44,8 @@ impl Sink for Closest {
     #[inline(always)]
     fn take(&mut self, hit: Candidate) -> ControlFlow<()> {
         let is_nearer = hit.t < self.best.t;
-        let is_first = hit.t == self.best.t
-            && (hit.item, hit.primitive) < (self.best.item, self.best.primitive);
+        let is_first =
+            hit.t == self.best.t && (hit.item, hit.primitive) < (self.best.item, self.best.primitive);
         if is_nearer || is_first {
             self.best = hit;
         }

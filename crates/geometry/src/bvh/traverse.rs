@@ -19,7 +19,12 @@ pub(crate) trait Visitor {
 
 /// Visits the leaves whose boxes the ray meets between its `t_min`, or 0 if that is negative, and the limit.
 #[inline(always)]
-pub(crate) fn traverse<L: Lanes, V: Visitor>(lanes: L, tree: &Tree, ray: &BoxRay, visitor: &mut V) -> ControlFlow<()> {
+pub(crate) fn traverse<L: Lanes, V: Visitor>(
+    lanes: L,
+    tree: &Tree,
+    ray: &BoxRay,
+    visitor: &mut V,
+) -> ControlFlow<()> {
     let Some(mut current) = tree.root else {
         return ControlFlow::Continue(());
     };

@@ -64,7 +64,10 @@ impl fmt::Display for MeshError {
                 write!(f, "the mesh has {face_count} faces, more than {MAX_FACES}; split it")
             }
             Self::IndexOutOfRange { face, index, vertex_count } => {
-                write!(f, "face {face} refers to vertex {index}, but there are {vertex_count} vertices (from 0)")
+                write!(
+                    f,
+                    "face {face} refers to vertex {index}, but there are {vertex_count} vertices (from 0)"
+                )
             }
             Self::NonFinitePosition { vertex } => {
                 write!(f, "the position of vertex {vertex} is not finite")

@@ -76,10 +76,18 @@ pub fn icosphere(center: Vec3, radius: f32, triangle_count: usize) -> MeshData {
                 let p = (a * w_a + b * w_b) + c * w_c;
                 positions.push(center + (p.normalize() * f64::from(radius)).as_vec3());
                 if row < splits {
-                    triangles.push([vertex(row, column), vertex(row + 1, column), vertex(row + 1, column + 1)]);
+                    triangles.push([
+                        vertex(row, column),
+                        vertex(row + 1, column),
+                        vertex(row + 1, column + 1),
+                    ]);
                 }
                 if row < splits && column < row {
-                    triangles.push([vertex(row, column), vertex(row + 1, column + 1), vertex(row, column + 1)]);
+                    triangles.push([
+                        vertex(row, column),
+                        vertex(row + 1, column + 1),
+                        vertex(row, column + 1),
+                    ]);
                 }
             }
         }
@@ -103,9 +111,26 @@ fn icosahedron() -> (Vec<DVec3>, [[usize; 3]; 20]) {
     }
     let corners = corners.into_iter().map(|p| p.normalize()).collect();
     let faces = [
-        [0, 11, 5], [0, 5, 1], [0, 1, 7], [0, 7, 10], [0, 10, 11], [1, 5, 9], [5, 11, 4], [11, 10, 2],
-        [10, 7, 6], [7, 1, 8], [3, 9, 4], [3, 4, 2], [3, 2, 6], [3, 6, 8], [3, 8, 9], [4, 9, 5], [2, 4, 11],
-        [6, 2, 10], [8, 6, 7], [9, 8, 1],
+        [0, 11, 5],
+        [0, 5, 1],
+        [0, 1, 7],
+        [0, 7, 10],
+        [0, 10, 11],
+        [1, 5, 9],
+        [5, 11, 4],
+        [11, 10, 2],
+        [10, 7, 6],
+        [7, 1, 8],
+        [3, 9, 4],
+        [3, 4, 2],
+        [3, 2, 6],
+        [3, 6, 8],
+        [3, 8, 9],
+        [4, 9, 5],
+        [2, 4, 11],
+        [6, 2, 10],
+        [8, 6, 7],
+        [9, 8, 1],
     ];
     (corners, faces)
 }

@@ -102,6 +102,7 @@ fn transform_slack(transform: &Transform, local: DVec3, reach: f64) -> f64 {
         (m.x_axis.abs() + m.y_axis.abs() + m.z_axis.abs()).max_element()
     };
     let (norm, inverse_norm) = (row_sum(transform), row_sum(&transform.inverse()));
-    let world_reach = norm * local.abs().max_element().max(reach) + transform.translation().abs().max_element();
+    let world_reach =
+        norm * local.abs().max_element().max(reach) + transform.translation().abs().max_element();
     F64_SLACK * world_reach * (norm * inverse_norm).max(1.0)
 }

@@ -84,7 +84,8 @@ impl LocalRay {
         }
         let sum = u.value + v.value + w.value;
         // A projection so thin that all products round to equality: any point of it will do.
-        let [u, v, w] = if sum == 0.0 { [1.0 / 3.0; 3] } else { [u.value / sum, v.value / sum, w.value / sum] };
+        let [u, v, w] =
+            if sum == 0.0 { [1.0 / 3.0; 3] } else { [u.value / sum, v.value / sum, w.value / sum] };
         let t = (u * a[2] + v * b[2] + w * c[2]) * self.inverse_z;
         let within = t > f64::from(self.t_min) && t < f64::from(self.t_max);
         within.then(|| TriangleHit { t: self.round_inside(t), barycentric: Vec2::new(v as f32, w as f32) })

@@ -17,7 +17,8 @@ fn shapes() -> Vec<Shape> {
         Shape::Arc(RevolvedArc::torus(1.0, 0.3, WHOLE_TURN, WHOLE_TURN).unwrap()),
         Shape::Arc(RevolvedArc::torus(0.9, 0.02, [0.0, PI], part).unwrap()),
         Shape::Rectangle(
-            Rectangle::new(DVec3::new(0.1, 0.2, 0.3), DVec3::new(0.5, 0.1, 0.0), DVec3::new(0.0, 0.3, 0.4)).unwrap(),
+            Rectangle::new(DVec3::new(0.1, 0.2, 0.3), DVec3::new(0.5, 0.1, 0.0), DVec3::new(0.0, 0.3, 0.4))
+                .unwrap(),
         ),
     ]
 }
@@ -28,7 +29,8 @@ fn random_rotation(random: &mut Random) -> Transform {
 
 fn similarity(random: &mut Random, scale: f64, offset: f64) -> Transform {
     let scaled = Transform::scale(DVec3::splat(scale)).unwrap();
-    Transform::translate(DVec3::from(random.direction()) * offset).after(&random_rotation(random).after(&scaled))
+    Transform::translate(DVec3::from(random.direction()) * offset)
+        .after(&random_rotation(random).after(&scaled))
 }
 
 /// A stretched, sheared, turned and perhaps mirrored map.
@@ -80,7 +82,9 @@ fn the_error_bound_holds_over_scales_and_distances() {
                         let magnitude = f64::from(hit.p.length()) + 3.0 * scale * f64::EPSILON;
                         assert!(f64::from(hit.p_error) < 4.0 * f64::from(f32::EPSILON) * magnitude);
                         let along = (hit.p.as_dvec3() - ray.origin.as_dvec3()).dot(ray.direction.as_dvec3());
-                        assert!((along - f64::from(t)).abs() < 2e-6 * (f64::from(t) + scale * (1.0 + offset)));
+                        assert!(
+                            (along - f64::from(t)).abs() < 2e-6 * (f64::from(t) + scale * (1.0 + offset))
+                        );
                         hits += 1;
                     }
                 }
@@ -130,7 +134,10 @@ fn a_ray_that_leaves_a_surface_does_not_meet_it_at_the_same_place() {
                     let cosine = direction.dot(hit.ng).abs();
                     let chord = 2.0 * scale as f32 * 0.02 * cosine;
                     let blur = 40.0 * f32::EPSILON * hit.p.length();
-                    assert!(cosine < 0.02 || again > 0.9 * chord - blur, "{again} after {cosine} at {scale} {offset}");
+                    assert!(
+                        cosine < 0.02 || again > 0.9 * chord - blur,
+                        "{again} after {cosine} at {scale} {offset}"
+                    );
                 }
             }
         }
@@ -195,27 +202,23 @@ fn world_areas_are_those_of_closed_forms() {
 }
 
 #[test]
-fn samples_follow_their_density_under_uneven_maps() {
+fn sampled_densities_add_up_to_the_area_under_uneven_maps() {
     let mut random = Random::from_seed(6);
     for shape in shapes() {
         let primitive = primitive(shape, uneven(&mut random));
         let area = primitive.area();
         let mut inverse_density = 0.0;
         let count = 40_000;
-        // In octants of the world normal and position about the middle, the expected count is the integral of the
-        // density, which area-uniform points of an independent sampler estimate: rejection on a fine grid of the object.
+        // Summed over the samples in an octant, 1/pdf over their number is the area there, which lines measure too.
         let middle = primitive.bounds().center();
         let cell = |p: Vec3| (0..3).map(|i| usize::from(p[i] > middle[i]) << i).sum::<usize>();
-        let mut observed = [0.0; 8];
         let mut areas = [0.0; 8];
         for _ in 0..count {
             let sample = primitive.sample_area(Vec2::new(random.uniform_f32(), random.uniform_f32()));
             assert!(sample.pdf_a > 0.0 && sample.pdf_a.is_finite());
-            observed[cell(sample.p)] += 1.0;
             areas[cell(sample.p)] += 1.0 / f64::from(sample.pdf_a) / f64::from(count);
             inverse_density += 1.0 / f64::from(sample.pdf_a) / f64::from(count);
         }
-        // The mean of 1/pdf is the area; in each octant, the area there, measured by a projected line count.
         assert!((inverse_density / area - 1.0).abs() < 0.02);
         let measured = octant_areas(&primitive, &mut random, cell);
         for (found, expected) in areas.iter().zip(measured) {

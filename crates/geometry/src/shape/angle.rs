@@ -138,7 +138,8 @@ mod tests {
             let start = random.between(-7.0, 7.0);
             let range = AngleRange::new("φ", [start, start + random.between(0.01, TAU)]).unwrap();
             let v = direction(random.between(0.0, TAU)) * 2.0;
-            let steps = (0..=1000).map(|i| direction(range.start() + range.span() * i as f64 / 1000.0).dot(v));
+            let steps =
+                (0..=1000).map(|i| direction(range.start() + range.span() * i as f64 / 1000.0).dot(v));
             let brute = steps.fold(f64::NEG_INFINITY, f64::max);
             assert!((range.support(v) - brute).abs() < 5e-5 && range.support(v) > brute - 1e-12);
         }

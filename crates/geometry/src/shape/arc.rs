@@ -1,7 +1,7 @@
 //! A circular arc of the (r, y) half-plane turned about y: torus, part torus, rounded rim.
 //!
-//! Squaring the torus to its quartic loses digits and brings in the far side of the axis, so the equation is solved
-//! as it is: along a ray of unit speed, with r the distance from the axis,
+//! Squaring the torus to its quartic loses digits and brings in the far side of the axis, so the equation is
+//! solved as it is: along a ray of unit speed, with r the distance from the axis,
 //!
 //! `f(τ) = (r - r_c)² + (y - y_c)² - R²`, whose second derivative is `2 (1 - r_c k / r³)`, k constant along the ray.
 //!
@@ -30,6 +30,8 @@ pub struct RevolvedArc {
     reach: f64,
     /// Lowest and highest point, relative to the center.
     y_range: [f64; 2],
+    /// Least and largest distance from the axis.
+    r_range: [f64; 2],
 }
 
 /// A ray of unit speed that starts where it is closest to the torus' center, from which heights count.
@@ -64,7 +66,7 @@ impl RevolvedArc {
         let largest = center.x + radius * theta.support(DVec2::X);
         let y_range = [-radius * theta.support(-DVec2::Y), radius * theta.support(DVec2::Y)];
         let reach = DVec2::new(largest, y_range[1].max(-y_range[0])).length();
-        Ok(Self { center, radius, theta, phi, reach, y_range })
+        Ok(Self { center, radius, theta, phi, reach, y_range, r_range: [lowest.max(0.0), largest] })
     }
 
     /// A torus about y, its center at the origin, or a part of one.
@@ -98,12 +100,38 @@ impl RevolvedArc {
         let ray = UnitRay::new(p, e);
         let slack = end_slack(self.extent(), origin);
         let Some((low, high)) = self.clip(&ray, slack) else { return };
-        self.between(&ray, low, high, |tau| {
-            let t = (closest + tau) / speed;
-            if out.admits(t) && self.is_in_range(ray.at(tau), slack) {
-                out.push(t);
-            }
-        });
+        let inflections = self.inflections(&ray);
+        for (low, high) in self.within_shell(&ray, low, high, slack).into_iter().flatten() {
+            self.between(&ray, inflections, low, high, |tau| {
+                let t = (closest + tau) / speed;
+                if out.admits(t) && self.is_in_range(ray.at(tau), slack) {
+                    out.push(t);
+                }
+            });
+        }
+    }
+
+    /// The parts of [low, high] between the least and the largest distance from the axis: a wall is thin, and most
+    /// of a ray runs inside or outside of it.
+    fn within_shell(&self, ray: &UnitRay, low: f64, high: f64, slack: f64) -> [Option<(f64, f64)>; 2] {
+        let nearest2 = ray.k / ray.across2;
+        let half = |r: f64| ((r * r - nearest2) / ray.across2).sqrt();
+        let [inner, outer] = [half((self.r_range[0] - slack).max(0.0)), half(self.r_range[1] + slack)];
+        if !ray.across2.is_normal() || !nearest2.is_finite() {
+            return [Some((low, high)), None];
+        }
+        if outer.is_nan() {
+            return [None, None];
+        }
+        let part = |first: f64, last: f64| {
+            let (first, last) = (first.max(low), last.min(high));
+            (first < last).then_some((first, last))
+        };
+        if inner > 0.0 {
+            [part(ray.nearest - outer, ray.nearest - inner), part(ray.nearest + inner, ray.nearest + outer)]
+        } else {
+            [part(ray.nearest - outer, ray.nearest + outer), None]
+        }
     }
 
     /// The part of the ray that can meet the arc: within its sphere, between its lowest and highest point.
@@ -119,9 +147,16 @@ impl RevolvedArc {
     }
 
     /// Calls `found` with each root of f in [low, high], ascending.
-    fn between(&self, ray: &UnitRay, low: f64, high: f64, mut found: impl FnMut(f64)) {
+    fn between(
+        &self,
+        ray: &UnitRay,
+        inflections: [(f64, f64); 2],
+        low: f64,
+        high: f64,
+        mut found: impl FnMut(f64),
+    ) {
         let tolerance = f64::EPSILON * self.reach;
-        let (turns, count) = self.turning_points(ray, low, high);
+        let (turns, count) = self.turning_points(ray, inflections, low, high);
         let mut last = low;
         let mut last_is_inside = self.f(ray, low).0 < 0.0;
         for &next in turns[..count].iter().chain([&high]) {
@@ -134,9 +169,15 @@ impl RevolvedArc {
     }
 
     /// The roots of f' in [low, high], ascending, and their number.
-    fn turning_points(&self, ray: &UnitRay, low: f64, high: f64) -> ([f64; 3], usize) {
+    fn turning_points(
+        &self,
+        ray: &UnitRay,
+        inflections: [(f64, f64); 2],
+        low: f64,
+        high: f64,
+    ) -> ([f64; 3], usize) {
         let ends = [low, high].map(|tau| (tau, self.half_slope(ray, tau).0));
-        let [first, second] = self.inflections(ray).map(|inflection| match inflection.0 {
+        let [first, second] = inflections.map(|inflection| match inflection.0 {
             tau if tau <= low => ends[0],
             tau if tau >= high => ends[1],
             _ => inflection,
@@ -147,7 +188,7 @@ impl RevolvedArc {
         for pair in knots.windows(2) {
             if (pair[0].1 < 0.0) != (pair[1].1 < 0.0) {
                 let slope = |tau| self.half_slope(ray, tau);
-                turns[count] = bracketed_root(slope, pair[0].0, pair[1].0, 1e-13 * self.reach);
+                turns[count] = bracketed_root(slope, pair[0].0, pair[1].0, 1e-7 * self.reach);
                 count += 1;
             }
         }
@@ -156,14 +197,15 @@ impl RevolvedArc {
 
     /// Where f changes between convex and concave, each with f'/2; twice the same where it never does.
     fn inflections(&self, ray: &UnitRay) -> [(f64, f64); 2] {
-        let r2 = cbrt(self.center.x * ray.k) * cbrt(self.center.x * ray.k);
+        let r = cbrt(self.center.x * ray.k);
+        let r2 = r * r;
         let half2 = (r2 - ray.k / ray.across2) / ray.across2;
         let never_changes = self.center.x <= 0.0 || half2.is_nan() || half2 < 0.0;
         if never_changes {
             return [(ray.nearest, self.half_slope(ray, ray.nearest).0); 2];
         }
-        // From r'² = across² - k / r². Where the ray meets the axis, the two coincide, and so do the slopes' limits with
-        // the values on either side of the kink.
+        // From r'² = across² - k / r². Where the ray meets the axis, the two coincide, and these are the slopes on
+        // either side of the kink.
         let lost = if ray.k > 0.0 { ray.k / r2 } else { 0.0 };
         let r_slope = (ray.across2 - lost).max(0.0).sqrt();
         let (before, after) = (ray.nearest - half2.sqrt(), ray.nearest + half2.sqrt());
@@ -179,7 +221,7 @@ impl RevolvedArc {
         (value, 2.0 * (tau - self.center.x * ray.r_slope(q, r)))
     }
 
-    /// f'/2 and its slope. Built on the nearest point to the axis, so that a kink there lies where `inflections` says.
+    /// f'/2 and its slope. Built on the point nearest to the axis, so that a kink lies where `inflections` says.
     fn half_slope(&self, ray: &UnitRay, tau: f64) -> (f64, f64) {
         let past = tau - ray.nearest;
         let r2 = ray.across2 * past * past + ray.k / ray.across2;
@@ -206,7 +248,7 @@ impl RevolvedArc {
         revolved_surface(profile, normal, away, &self.phi, self.theta.fraction(normal))
     }
 
-    /// Area between the first angle and `past` radians later, per radian of azimuth and unit of radius, and its slope.
+    /// Area from the first angle to `past` radians later, per radian of azimuth and unit of radius, and its slope.
     fn sector(&self, past: f64) -> (f64, f64) {
         let middle = self.theta.start() + 0.5 * past;
         // sin(θ0 + past) - sin θ0, without cancellation.
@@ -233,7 +275,8 @@ impl RevolvedArc {
         );
         let (sin, cos) = sin_cos(self.theta.start() + past);
         let profile = self.center + DVec2::new(cos, sin) * self.radius;
-        let (p, away) = revolved_point(profile.x.max(0.0), profile.y, self.phi.start() + u.x * self.phi.span());
+        let (p, away) =
+            revolved_point(profile.x.max(0.0), profile.y, self.phi.start() + u.x * self.phi.span());
         (p, away * cos + DVec3::Y * sin)
     }
 }

@@ -110,12 +110,7 @@ fn edges(
 }
 
 /// The eight octants.
-fn corners(
-    center: DVec3,
-    flat: DVec3,
-    radius: f64,
-    parts: &mut Vec<Primitive>,
-) -> Result<(), ShapeError> {
+fn corners(center: DVec3, flat: DVec3, radius: f64, parts: &mut Vec<Primitive>) -> Result<(), ShapeError> {
     for (phi, sign_z, sign_x) in QUARTERS {
         for (latitude, sign_y) in [([0.0, FRAC_PI_2], 1.0), ([-FRAC_PI_2, 0.0], -1.0)] {
             let octant = Sphere::between_latitudes(radius, phi, latitude)?;

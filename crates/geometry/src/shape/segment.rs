@@ -68,7 +68,11 @@ impl RevolvedSegment {
     /// As `new`, and where the inner radius is not below the radius.
     pub fn disc(radius: f64, inner_radius: f64, y: f64, phi: [f64; 2]) -> Result<Self, ShapeError> {
         if inner_radius >= radius {
-            return Err(ShapeError::out_of_range("inner radius", inner_radius, "it must be below the radius"));
+            return Err(ShapeError::out_of_range(
+                "inner radius",
+                inner_radius,
+                "it must be below the radius",
+            ));
         }
         Self::new([radius, y], [inner_radius, y], phi)
     }

@@ -320,7 +320,9 @@ fn samples_are_uniform_by_area() {
             observed[cell(uv.x, nu) * nv + cell(uv.y, nv)] += 1.0;
         }
         let weight = |j: usize| {
-            (0..50).map(|k| (case.profile)((j as f64 + (f64::from(k) + 0.5) / 50.0) / nv as f64).x).sum::<f64>()
+            (0..50)
+                .map(|k| (case.profile)((j as f64 + (f64::from(k) + 0.5) / 50.0) / nv as f64).x)
+                .sum::<f64>()
         };
         let total: f64 = (0..nv).map(weight).sum::<f64>() * nu as f64;
         let expected: Vec<f64> =

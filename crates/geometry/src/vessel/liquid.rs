@@ -1,7 +1,7 @@
 //! The outlines of the liquids in a vessel.
 //!
-//! From the axis below the inner base, out to a curve inside the glass, up along it to beside the contact with the wall,
-//! inward through the wall, down the meniscus and level to the axis. Each liquid runs at its own depth in the glass.
+//! From the axis below the inner base, out to a curve inside the glass, up along it to beside the contact with the
+//! wall, inward through the wall, down the meniscus and level to the axis. Each liquid runs at its own depth.
 
 use super::{Cavity, FillSpec, LOWEST, Level, level_from_axis};
 use crate::shape::ShapeError;
@@ -9,8 +9,8 @@ use crate::shape::profile::{Piece, Profile, inset};
 use hyaline_math::DVec2;
 use hyaline_math::float::f64::{acos, atan2, cos, sin};
 
-/// Angle at which a meniscus meets the wall, 20° as of water on glass that is not perfectly clean; less where the wall
-/// leans out so far that a meniscus would not rise.
+/// Angle at which a meniscus meets the wall, 20°, as of water on glass that is not perfectly clean; less where the
+/// wall leans out so far that a meniscus would not rise.
 const CONTACT_ANGLE: f64 = 0.349_065_850_398_866;
 
 /// Where a liquid's surface lies.
@@ -46,7 +46,9 @@ fn surfaces(cavity: &Cavity) -> Result<Vec<Surface>, ShapeError> {
     for (i, spec) in fill.iter().enumerate() {
         let flat = level_height(cavity, spec.level)?;
         if flat <= below + 1e-9 * cavity.spec.outer.size() {
-            let remedy = format!("it must be above {below}, where what is below ends; list liquids from the lowest up");
+            let remedy = format!(
+                "it must be above {below}, where what is below ends; list liquids from the lowest up"
+            );
             return Err(ShapeError::out_of_range("height of a liquid's surface", flat, remedy));
         }
         let contact = flat + meniscus_height(cavity, spec, flat)?;

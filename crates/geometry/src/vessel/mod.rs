@@ -116,7 +116,11 @@ impl VesselSpec {
     fn cavity(&self) -> Result<Cavity<'_>, ShapeError> {
         let quantity = |name, value: f64, is_valid: bool| {
             let remedy = "give a finite thickness above 0";
-            if is_valid && value.is_finite() { Ok(()) } else { Err(ShapeError::out_of_range(name, value, remedy)) }
+            if is_valid && value.is_finite() {
+                Ok(())
+            } else {
+                Err(ShapeError::out_of_range(name, value, remedy))
+            }
         };
         let is_closed_below = self.outer.start().x <= self.axis();
         quantity("wall", self.wall, self.wall > 0.0)?;
@@ -143,7 +147,11 @@ impl VesselSpec {
         level_from_axis(cavity.wall[0].from(), self.axis(), &mut inner);
         inner.extend_from_slice(&cavity.wall);
         pieces.extend(inner.iter().rev().map(Piece::reversed));
-        Profile::named("the outline of the glass", "make the wall or the base thinner, or the vessel wider", pieces)
+        Profile::named(
+            "the outline of the glass",
+            "make the wall or the base thinner, or the vessel wider",
+            pieces,
+        )
     }
 }
 

@@ -53,15 +53,9 @@ fn vessels() -> Vec<(&'static str, VesselSpec)> {
         ("brimful bottle", spec(narrowing, 0.002, 0.004, Rim::Round, &[(1.0, 0.0)])),
         ("curved", spec(curved, 0.002, 0.006, Rim::Round, &[(0.3, 0.0), (0.6, 0.001), (0.8, 0.0)])),
         ("wine", spec(wine, 0.0015, 0.074, Rim::Round, &[(0.4, 0.001)])),
-        (
-            "fishbowl",
-            spec(Profile::sphere_bowl(0.12, 0.05, 0.08), 0.004, 0.006, Rim::Round, &[(0.7, 0.003)]),
-        ),
+        ("fishbowl", spec(Profile::sphere_bowl(0.12, 0.05, 0.08), 0.004, 0.006, Rim::Round, &[(0.7, 0.003)])),
         ("flask", spec(Profile::sphere_bowl(0.12, 0.0, 0.08), 0.004, 0.0, Rim::Flat, &[(0.7, 0.003)])),
-        (
-            "funnel",
-            spec(Profile::lines(&[[0.0, 0.0], [0.05, 0.1]]), 0.002, 0.0, Rim::Round, &[(0.6, 0.001)]),
-        ),
+        ("funnel", spec(Profile::lines(&[[0.0, 0.0], [0.05, 0.1]]), 0.002, 0.0, Rim::Round, &[(0.6, 0.001)])),
         (
             "martini",
             spec(Profile::lines(&[[0.01, 0.0], [0.06, 0.03]]), 0.002, 0.004, Rim::Round, &[(0.6, 0.001)]),
@@ -126,7 +120,9 @@ fn media(vessel: &Vessel, o: DVec3, d: DVec3) -> Vec<(f64, Option<usize>)> {
     let solids = std::iter::once(&vessel.glass).chain(&vessel.liquids);
     let mut events: Vec<(f64, usize, bool)> = solids
         .enumerate()
-        .flat_map(|(solid, parts)| boundary(parts, o, d).into_iter().map(move |(t, enters)| (t, solid, enters)))
+        .flat_map(|(solid, parts)| {
+            boundary(parts, o, d).into_iter().map(move |(t, enters)| (t, solid, enters))
+        })
         .collect();
     events.sort_by(|a, b| a.0.total_cmp(&b.0));
     let mut inside = vec![false; vessel.liquids.len() + 1];
@@ -158,7 +154,8 @@ fn every_place_in_a_straight_glass_holds_what_it_should() {
     let mut random = Random::from_seed(1);
     let mut seen = [0; 4];
     for _ in 0..100_000 {
-        let toward = DVec3::from_array(std::array::from_fn(|i| [0.035, 0.05, 0.035][i] * random.between(-1.0, 1.0)));
+        let toward =
+            DVec3::from_array(std::array::from_fn(|i| [0.035, 0.05, 0.035][i] * random.between(-1.0, 1.0)));
         let d = DVec3::from(random.direction());
         let o = toward + DVec3::Y * 0.05 - d;
         let media = media(&vessel, o, d);
@@ -199,14 +196,18 @@ fn rays_through_the_axis_pass_as_all_others_do() {
         let size = spec.outer.size();
         for parts in std::iter::once(&vessel.glass).chain(&vessel.liquids) {
             for i in 0..2_000 {
-                let (sin, cos) = hyaline_math::float::f64::sin_cos(if i == 0 { -FRAC_PI_2 } else { random.between(0.0, 7.0) });
+                let (sin, cos) = hyaline_math::float::f64::sin_cos(if i == 0 {
+                    -FRAC_PI_2
+                } else {
+                    random.between(0.0, 7.0)
+                });
                 let d = DVec3::new(0.0, sin, cos);
                 let o = DVec3::Y * size * random.between(0.0, 1.1) - d * 3.0 * size;
                 let mut boundary = boundary(parts, o, d);
                 // Down the axis an apex counts twice.
                 boundary.dedup_by(|a, b| i == 0 && a.1 == b.1 && (a.0 - b.0).abs() < 1e-12 * size);
                 let by_turns = boundary.iter().enumerate().all(|(i, (_, enters))| *enters == (i % 2 == 0));
-                assert!(by_turns && boundary.len() % 2 == 0, "{name}: {o} {d} {boundary:?}");
+                assert!(by_turns && boundary.len().is_multiple_of(2), "{name}: {o} {d} {boundary:?}");
             }
         }
         let down = hyaline_math::Ray::new(hyaline_math::Vec3::Y, -hyaline_math::Vec3::Y);
@@ -296,7 +297,9 @@ fn impossible_vessels_are_refused_with_reasons() {
     };
     refused(&tight, "wall is 0.06");
     let pinched = |spec: &mut VesselSpec| {
-        spec.outer = Profile::lines(&[[0.03, 0.0], [0.04, 0.05], [0.0415, 0.051], [0.04, 0.052], [0.04, 0.1]]).unwrap();
+        spec.outer =
+            Profile::lines(&[[0.03, 0.0], [0.04, 0.05], [0.0415, 0.051], [0.04, 0.052], [0.04, 0.1]])
+                .unwrap();
     };
     refused(&pinched, "too tightly curved");
 }

@@ -46,11 +46,6 @@ pub enum Rays {
 
 /// Fails unless renderer and tracer see the same through the objects of `kit`, which `scene` describes too.
 pub fn assert_same_view(kit: &SceneKit, scene: &Scene, rays: &Rays, what: &str) {
-    assert_same_decided_view(kit, scene, rays, UNDECIDED, what);
-}
-
-/// The same where another fraction of the rays may be undecided.
-pub fn assert_same_decided_view(kit: &SceneKit, scene: &Scene, rays: &Rays, undecided: f64, what: &str) {
     let mut kit = kit.clone();
     if let Rays::From(p) = rays {
         kit.camera(*p, *p + DVec3::X);
@@ -73,7 +68,7 @@ pub fn assert_same_decided_view(kit: &SceneKit, scene: &Scene, rays: &Rays, unde
             }
         }
     }
-    tally.assert_plausible(undecided, what);
+    tally.assert_plausible(what);
 }
 
 /// What became of all the rays.
@@ -103,7 +98,8 @@ impl Tally {
         assert!(turned <= may_turn, "{what}: is turned by {turned:e}, {may_turn:e} are allowed: {path:?}");
         let (change, may_change) = ((seen.weight - path.weight).abs(), roundings * spread.weight);
         assert!(change <= may_change, "{what}: weighs {} not {}: {path:?}", seen.weight, path.weight);
-        self.worst = [error / allowed, turned / may_turn, change / may_change].into_iter().fold(self.worst, f64::max);
+        self.worst =
+            [error / allowed, turned / may_turn, change / may_change].into_iter().fold(self.worst, f64::max);
         if let Some(albedo) = seen.albedo {
             self.got_out += 1;
             let (square, to_edge) = square_of(path.end, scene.room);
@@ -111,10 +107,13 @@ impl Tally {
         }
     }
 
-    fn assert_plausible(&self, allowed: f64, what: &str) {
+    fn assert_plausible(&self, what: &str) {
         let undecided = self.undecided as f64 / RAYS as f64;
-        println!("{what}: {} boundaries on {} paths, {} undecided, worst {}", self.boundaries, self.compared, self.undecided, self.worst);
-        assert!(undecided <= allowed, "{what}: {} of {RAYS} rays are undecided", self.undecided);
+        println!(
+            "{what}: {} boundaries on {} paths, {} undecided, worst {}",
+            self.boundaries, self.compared, self.undecided, self.worst
+        );
+        assert!(undecided <= UNDECIDED, "{what}: {} of {RAYS} rays are undecided", self.undecided);
         assert!(self.boundaries > RAYS, "{what}: only {} boundaries were met", self.boundaries);
         assert!(self.got_out > RAYS / 4, "{what}: only {} rays got out", self.got_out);
     }
@@ -143,7 +142,8 @@ struct Spread {
 
 /// The tracer's path along `ray` and its spread; `None` where rays beside it take another way.
 fn traced(scene: &Scene, ray: &Ray, choices: Choices) -> Option<(Path, Spread)> {
-    let ray = snell_tracer::Ray { origin: ray.origin.as_dvec3(), direction: ray.direction.as_dvec3().normalize() };
+    let ray =
+        snell_tracer::Ray { origin: ray.origin.as_dvec3(), direction: ray.direction.as_dvec3().normalize() };
     let path = scene.follow(ray, choices)?;
     let mut spread = Spread::default();
     add_spread(scene, &path, 0, ray, ray.direction, choices, &mut spread)?;
@@ -165,7 +165,13 @@ fn add_spread(
     spread: &mut Spread,
 ) -> Option<()> {
     let medium = match path.steps[..count].last() {
-        Some(step) => if step.transmits { step.to } else { step.from },
+        Some(step) => {
+            if step.transmits {
+                step.to
+            } else {
+                step.from
+            }
+        }
         None => (scene.medium_at)(onward.origin),
     };
     let way = |steps: &[Step]| -> Vec<(Medium, Medium, bool)> {
@@ -205,13 +211,8 @@ struct Seen {
 fn follow(world: &World, mut ray: Ray, choices: Choices) -> Seen {
     let mut set: MediumSet = world.camera_media[0].clone();
     let mut stats = Stats::default();
-    let mut seen = Seen {
-        boundaries: Vec::new(),
-        end: DVec3::ZERO,
-        direction: DVec3::ZERO,
-        weight: 1.0,
-        albedo: None,
-    };
+    let mut seen =
+        Seen { boundaries: Vec::new(), end: DVec3::ZERO, direction: DVec3::ZERO, weight: 1.0, albedo: None };
     while seen.boundaries.len() < choices.longest && seen.albedo.is_none() {
         let Event::Surface(vertex) = walk::advance(world, &ray, mask::PATH, &mut set, &mut stats) else {
             panic!("the walls of the room have a gap: {ray:?}");

@@ -1,5 +1,9 @@
 //! Small scenes built in code, and estimates of radiance in them, for the tests of integrators.
-#![allow(dead_code, unreachable_pub, reason = "each test file uses its own part of the kit, and a test exports nothing")]
+#![allow(
+    dead_code,
+    unreachable_pub,
+    reason = "each test file uses its own part of the kit, and a test exports nothing"
+)]
 
 use hyaline_math::{DVec3, Ray, Transform, Vec3};
 use hyaline_sampling::{Sampler, SamplerKind};
@@ -60,7 +64,9 @@ impl SceneKit {
     }
 
     pub fn material(&mut self, name: &str, kind: MaterialKind) -> &mut Self {
-        self.description.materials.push(MaterialDescription { name: name.into(), kind, two_sided: true }.into());
+        self.description
+            .materials
+            .push(MaterialDescription { name: name.into(), kind, two_sided: true }.into());
         self
     }
 
@@ -68,7 +74,13 @@ impl SceneKit {
         self.material(name, MaterialKind::Matte { reflectance: ColorSource::Constant([reflectance; 3]) })
     }
 
-    pub fn object(&mut self, name: &str, shape: ShapeDescription, boundary: BoundaryDescription, material: &str) -> &mut Self {
+    pub fn object(
+        &mut self,
+        name: &str,
+        shape: ShapeDescription,
+        boundary: BoundaryDescription,
+        material: &str,
+    ) -> &mut Self {
         let object = ObjectDescription {
             name: name.into(),
             shape,
@@ -86,7 +98,13 @@ impl SceneKit {
         self.object(name, shape, BoundaryDescription::Solid { medium: medium.into() }, "dielectric")
     }
 
-    pub fn interface(&mut self, name: &str, shape: ShapeDescription, outside: Option<&str>, inside: Option<&str>) -> &mut Self {
+    pub fn interface(
+        &mut self,
+        name: &str,
+        shape: ShapeDescription,
+        outside: Option<&str>,
+        inside: Option<&str>,
+    ) -> &mut Self {
         let boundary = BoundaryDescription::Interface {
             outside: outside.map(Into::into),
             inside: inside.map(Into::into),
@@ -168,7 +186,11 @@ pub fn tumbler(rim: RimKind, fill: &[(&str, f64, f64)], unit: f64) -> ShapeDescr
         medium: "glass".into(),
         fill: fill
             .iter()
-            .map(|&(medium, level, meniscus)| FillLayer { medium: medium.into(), level, meniscus: meniscus * unit })
+            .map(|&(medium, level, meniscus)| FillLayer {
+                medium: medium.into(),
+                level,
+                meniscus: meniscus * unit,
+            })
             .collect(),
     })
 }

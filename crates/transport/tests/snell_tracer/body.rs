@@ -7,11 +7,24 @@ use hyaline_math::{DVec2, DVec3};
 /// A set of points.
 #[derive(Clone, Debug)]
 pub enum Body {
-    Ball { center: DVec3, radius: f64 },
-    Cuboid { min: DVec3, max: DVec3 },
+    Ball {
+        center: DVec3,
+        radius: f64,
+    },
+    Cuboid {
+        min: DVec3,
+        max: DVec3,
+    },
     /// A box whose edges are rounded: the points within `radius` of a smaller box.
-    RoundedCuboid { min: DVec3, max: DVec3, radius: f64 },
-    Torus { major_radius: f64, minor_radius: f64 },
+    RoundedCuboid {
+        min: DVec3,
+        max: DVec3,
+        radius: f64,
+    },
+    Torus {
+        major_radius: f64,
+        minor_radius: f64,
+    },
     /// Within a closed, convex shell of triangles.
     Hull(Vec<Triangle>),
 }

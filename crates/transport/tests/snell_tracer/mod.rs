@@ -75,14 +75,20 @@ pub struct Choices {
 
 impl Scene {
     /// Follows a ray to the wall. `None` where the path is undecided: it passes where surfaces meet, or a smooth normal
-    /// sends it to the wrong side of a triangle.
+    /// would send light to the wrong side of a triangle.
     pub fn follow(&self, ray: Ray, choices: Choices) -> Option<Path> {
         let medium = (self.medium_at)(ray.origin);
         self.follow_from(ray, medium, 0, choices)
     }
 
     /// The rest of a path that is in `medium` after `count` boundaries.
-    pub fn follow_from(&self, mut ray: Ray, mut medium: Medium, count: usize, choices: Choices) -> Option<Path> {
+    pub fn follow_from(
+        &self,
+        mut ray: Ray,
+        mut medium: Medium,
+        count: usize,
+        choices: Choices,
+    ) -> Option<Path> {
         let mut steps: Vec<Step> = Vec::new();
         let mut weight = 1.0;
         while count + steps.len() < choices.longest {
@@ -92,17 +98,25 @@ impl Scene {
             };
             let (n_i, n_t) = (self.ior[medium], self.ior[to]);
             let reflectance = fresnel(&ray, hit.normal, n_i, n_t);
-            let next = match refract(ray.direction, hit.normal, n_i, n_t) {
-                Some(direction) if choices.reflect_at != Some(count + steps.len()) => direction,
-                _ => ray.direction - 2.0 * ray.direction.dot(hit.normal) * hit.normal,
-            };
-            let transmits = next.dot(hit.normal) * ray.direction.dot(hit.normal) > 0.0;
-            if transmits != (next.dot(hit.true_normal) * ray.direction.dot(hit.true_normal) > 0.0) {
+            let reflected = ray.direction - 2.0 * ray.direction.dot(hit.normal) * hit.normal;
+            let refracted = refract(ray.direction, hit.normal, n_i, n_t);
+            let crosses = |way: DVec3| way.dot(hit.true_normal) * ray.direction.dot(hit.true_normal) > 0.0;
+            if crosses(reflected) || refracted.is_some_and(|way| !crosses(way)) {
                 return None;
             }
+            let may_cross = choices.reflect_at != Some(count + steps.len());
+            let transmitted = refracted.filter(|_| may_cross);
+            let (next, transmits) = (transmitted.unwrap_or(reflected), transmitted.is_some());
             weight *= if transmits { (1.0 - reflectance) * (n_i / n_t) * (n_i / n_t) } else { reflectance };
             ray = Ray { origin: ray.origin + ray.direction * hit.t, direction: next.normalize() };
-            steps.push(Step { p: ray.origin, n: hit.true_normal, next: ray.direction, from: medium, to, transmits });
+            steps.push(Step {
+                p: ray.origin,
+                n: hit.true_normal,
+                next: ray.direction,
+                from: medium,
+                to,
+                transmits,
+            });
             medium = if transmits { to } else { medium };
         }
         Some(Path { end: ray.origin, direction: ray.direction, weight, got_out: false, steps })

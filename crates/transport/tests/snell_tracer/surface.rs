@@ -6,14 +6,30 @@ use hyaline_math::{DVec2, DVec3};
 /// A surface without ends.
 #[derive(Clone, Debug)]
 pub enum Surface {
-    Sphere { center: DVec3, radius: f64 },
-    Plane { point: DVec3, normal: DVec3 },
+    Sphere {
+        center: DVec3,
+        radius: f64,
+    },
+    Plane {
+        point: DVec3,
+        normal: DVec3,
+    },
     /// The points at a distance of |radius + slope y| from the y axis: a cone, or a cylinder.
-    Cone { radius: f64, slope: f64 },
+    Cone {
+        radius: f64,
+        slope: f64,
+    },
     /// The circle about (distance from the axis, height) = `center`, turned about y.
-    Torus { center: DVec2, radius: f64 },
+    Torus {
+        center: DVec2,
+        radius: f64,
+    },
     /// The points at distance `radius` from the box `min`…`max`.
-    AboutBox { min: DVec3, max: DVec3, radius: f64 },
+    AboutBox {
+        min: DVec3,
+        max: DVec3,
+        radius: f64,
+    },
     /// Triangles, each with the normals at its corners.
     Triangles(Vec<Triangle>),
 }

@@ -145,7 +145,8 @@ impl Vessel {
     /// The vessel alone in the world.
     pub fn scene(self, ior: &[f64], size: f64) -> Scene {
         let level = |y: f64| Surface::Plane { point: DVec3::Y * y, normal: DVec3::Y };
-        let mut surfaces = vec![level(0.0), level(self.base), self.outside.surface(0.0), self.outside.surface(self.wall)];
+        let mut surfaces =
+            vec![level(0.0), level(self.base), self.outside.surface(0.0), self.outside.surface(self.wall)];
         surfaces.push(if self.has_round_rim {
             Surface::Torus { center: self.rim(), radius: 0.5 * self.wall }
         } else {

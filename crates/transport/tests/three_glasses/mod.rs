@@ -80,19 +80,37 @@ fn carved(kit: &mut SceneKit) {
 }
 
 fn poured(kit: &mut SceneKit) {
-    let profile =
-        vec![[0.0, 0.0], [RADIUS, 0.0], [RADIUS, HEIGHT], [INNER_RADIUS, HEIGHT], [INNER_RADIUS, BASE], [0.0, BASE]];
-    kit.solid("glass", ShapeDescription::Revolution { profile, curve: ProfileCurve::Lines }, "glass")
-        .solid("water", cylinder(RADIUS - 0.5 * WALL, 0.5 * BASE, WATER_LINE, true), "water");
+    let profile = vec![
+        [0.0, 0.0],
+        [RADIUS, 0.0],
+        [RADIUS, HEIGHT],
+        [INNER_RADIUS, HEIGHT],
+        [INNER_RADIUS, BASE],
+        [0.0, BASE],
+    ];
+    kit.solid("glass", ShapeDescription::Revolution { profile, curve: ProfileCurve::Lines }, "glass").solid(
+        "water",
+        cylinder(RADIUS - 0.5 * WALL, 0.5 * BASE, WATER_LINE, true),
+        "water",
+    );
 }
 
 fn interfaces(kit: &mut SceneKit) {
-    let outside =
-        vec![cylinder(RADIUS, 0.0, HEIGHT, false), disc(RADIUS, 0.0, 0.0, -1.0), disc(RADIUS, INNER_RADIUS, HEIGHT, 1.0)];
+    let outside = vec![
+        cylinder(RADIUS, 0.0, HEIGHT, false),
+        disc(RADIUS, 0.0, 0.0, -1.0),
+        disc(RADIUS, INNER_RADIUS, HEIGHT, 1.0),
+    ];
     kit.interface("glass to air, outside", compound(outside), None, Some("glass"))
-        .interface("glass to air, inside", cylinder(INNER_RADIUS, WATER_LINE, HEIGHT, false), Some("glass"), None)
+        .interface(
+            "glass to air, inside",
+            cylinder(INNER_RADIUS, WATER_LINE, HEIGHT, false),
+            Some("glass"),
+            None,
+        )
         .interface("water to air", disc(INNER_RADIUS, 0.0, WATER_LINE, 1.0), None, Some("water"));
-    let floor = compound(vec![cylinder(INNER_RADIUS, BASE, WATER_LINE, false), disc(INNER_RADIUS, 0.0, BASE, -1.0)]);
+    let floor =
+        compound(vec![cylinder(INNER_RADIUS, BASE, WATER_LINE, false), disc(INNER_RADIUS, 0.0, BASE, -1.0)]);
     kit.interface("glass to water", floor, Some("glass"), Some("water"));
 }
 
@@ -122,7 +140,14 @@ pub fn traced_glass() -> Scene {
         }
     };
     Scene {
-        surfaces: vec![plane(0.0), plane(BASE), plane(WATER_LINE), plane(HEIGHT), wall(RADIUS), wall(INNER_RADIUS)],
+        surfaces: vec![
+            plane(0.0),
+            plane(BASE),
+            plane(WATER_LINE),
+            plane(HEIGHT),
+            wall(RADIUS),
+            wall(INNER_RADIUS),
+        ],
         medium_at: Box::new(medium_at),
         ior: vec![1.0, 1.0, 1.5, 1.333],
         size: HEIGHT,

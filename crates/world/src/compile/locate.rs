@@ -7,16 +7,14 @@
 
 use crate::World;
 use crate::world::mask;
-use hyaline_math::{Ray, Vec3, float, offset_origin};
+use hyaline_geometry::{Candidate, SurfaceHit};
+use hyaline_math::{Ray, Vec3, float};
 use hyaline_scattering::{BoundaryKind, MediumId, MediumSet, ObjectId};
 use hyaline_scene::{Note, Source};
 use std::collections::BTreeMap;
 
 /// Rays sent out; odd, so that votes seldom tie.
 const RAY_COUNT: usize = 61;
-
-/// Surfaces that one ray looks at, at most.
-const LONGEST_WALK: usize = 256;
 
 /// The medium set at `place`.
 ///
@@ -42,7 +40,8 @@ pub(super) fn locate(
         set = MediumSet::new(base);
     }
     let solids: Vec<ObjectId> = {
-        let seen: BTreeMap<ObjectId, ()> = views.iter().flat_map(|v| v.depths.keys().map(|&o| (o, ()))).collect();
+        let seen: BTreeMap<ObjectId, ()> =
+            views.iter().flat_map(|v| v.depths.keys().map(|&o| (o, ()))).collect();
         seen.into_keys().collect()
     };
     for solid in solids {
@@ -71,10 +70,8 @@ struct View {
 fn look(world: &World, place: Vec3, direction: Vec3) -> View {
     let mut view = View::default();
     let mut net: BTreeMap<ObjectId, i32> = BTreeMap::new();
-    let mut ray = Ray::new(place, direction);
-    for _ in 0..LONGEST_WALK {
-        let Some(candidate) = world.geometry.closest(&ray, mask::PATH) else { break };
-        let hit = world.geometry.surface(&ray, &candidate);
+    let ray = Ray::new(place, direction);
+    for hit in all_hits(world, &ray) {
         let object = world.items[hit.item as usize].object;
         let leaves = hit.ng.dot(direction) > 0.0;
         match world.boundaries.of(object) {
@@ -90,9 +87,25 @@ fn look(world: &World, place: Vec3, direction: Vec3) -> View {
                 view.base.get_or_insert(if leaves { inside } else { outside });
             }
         }
-        ray.origin = offset_origin(hit.p, hit.p_error, hit.ng, direction);
     }
     view
+}
+
+/// All surfaces along a ray, the nearest first. Asked for at once: walking on from each to the next would pass over
+/// those that coincide with it.
+fn all_hits(world: &World, ray: &Ray) -> impl Iterator<Item = SurfaceHit> {
+    let mut candidates: Vec<Candidate> = Vec::new();
+    world.geometry.crossings(ray, mask::PATH, &mut |candidate| candidates.push(candidate));
+    let bounds_nothing = |candidate: &Candidate| {
+        let object = world.items[candidate.item as usize].object;
+        world.boundaries.of(object) == BoundaryKind::None
+    };
+    // What touches an opaque thing is seen before it.
+    candidates.sort_by(|a, b| {
+        let key = |c: &Candidate| (bounds_nothing(c), c.item, c.primitive);
+        a.t.total_cmp(&b.t).then_with(|| key(a).cmp(&key(b)))
+    });
+    candidates.into_iter().map(|candidate| world.geometry.surface(ray, &candidate))
 }
 
 fn count<T: Ord>(votes: impl Iterator<Item = T>) -> BTreeMap<T, usize> {

@@ -73,20 +73,6 @@ impl LightSet {
             .iter()
             .fold(Spectrum::ZERO, |sum, &index| sum + self.lights[index as usize].radiance_of_sky(direction))
     }
-
-    /// Density with which direct light sampling, its choice of a light included, chooses a direction to the sky.
-    ///
-    /// - `p`: the point to be lit.
-    /// - `wi`: unit direction to the sky.
-    ///
-    /// Returns sr⁻¹, summed over all surroundings.
-    pub fn pdf_of_sky(&self, p: Vec3, wi: Vec3) -> f32 {
-        let pdf = |&index: &u32| {
-            let index = index as usize;
-            self.direct.probability(index) * self.lights[index].pdf_direct(p, wi, None)
-        };
-        self.environments.iter().map(pdf).sum()
-    }
 }
 
 /// A light that was chosen.
@@ -199,7 +185,5 @@ mod tests {
         let set = LightSet::new(vec![sky(1.0), sky(2.0)], 3);
         assert_eq!(set.environments(), [0, 1]);
         assert_eq!(set.radiance_of_sky(Vec3::X), Spectrum::splat(3.0));
-        let pdf = set.pdf_of_sky(Vec3::ZERO, Vec3::X);
-        assert!((pdf - 0.25 / std::f32::consts::PI).abs() < 1e-6);
     }
 }

@@ -59,7 +59,11 @@ fn read_vertices(
     Ok(())
 }
 
-fn read_faces(element: &Element, words: &mut Words<'_>, builder: &mut Builder) -> std::result::Result<(), String> {
+fn read_faces(
+    element: &Element,
+    words: &mut Words<'_>,
+    builder: &mut Builder,
+) -> std::result::Result<(), String> {
     let indices = index_property(element)?;
     let mut corners = Vec::new();
     for _ in 0..element.count {

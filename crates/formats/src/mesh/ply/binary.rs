@@ -78,7 +78,11 @@ fn truncated(element: &Element) -> String {
     format!("the file ends before its {} of element '{}'", element.count, element.name)
 }
 
-fn read_vertices<E: Endian>(element: &Element, cursor: &mut Cursor<'_>, builder: &mut Builder) -> Checked<()> {
+fn read_vertices<E: Endian>(
+    element: &Element,
+    cursor: &mut Cursor<'_>,
+    builder: &mut Builder,
+) -> Checked<()> {
     let layout = VertexLayout::new(element)?;
     builder.reserve_vertices(&layout, element.count);
     if element.properties.iter().any(|property| property.list.is_some()) {

@@ -151,7 +151,9 @@ impl Builder {
     pub(super) fn index(&self, index: i64) -> Result<u32, String> {
         match u32::try_from(index) {
             Ok(small) if (small as usize) < self.vertex_count => Ok(small),
-            _ => Err(format!("vertex index {index} is out of range, there are {} vertices", self.vertex_count)),
+            _ => {
+                Err(format!("vertex index {index} is out of range, there are {} vertices", self.vertex_count))
+            }
         }
     }
 
@@ -171,7 +173,11 @@ impl Builder {
         } else {
             fan(corners, &mut self.mesh.triangles);
         }
-        if self.mesh.triangles.len() > MAX_COUNT { Err("more than 2^32 triangles".to_owned()) } else { Ok(()) }
+        if self.mesh.triangles.len() > MAX_COUNT {
+            Err("more than 2^32 triangles".to_owned())
+        } else {
+            Ok(())
+        }
     }
 
     /// The mesh.

@@ -111,7 +111,9 @@ pub(super) fn parse(bytes: &[u8], file: &Source) -> Result<(Header, usize)> {
             return error(if line == 1 { "not a PLY file" } else { "the PLY header has no end" });
         };
         offset += length + 1;
-        let Ok(text) = std::str::from_utf8(&rest[..length]) else { return error("not a text in a PLY header") };
+        let Ok(text) = std::str::from_utf8(&rest[..length]) else {
+            return error("not a text in a PLY header");
+        };
         let words: Vec<&str> = text.split_ascii_whitespace().collect();
         match (line, words.as_slice()) {
             (1, ["ply"]) => {}
@@ -130,7 +132,9 @@ pub(super) fn parse(bytes: &[u8], file: &Source) -> Result<(Header, usize)> {
                 elements.push(Element { name: (*name).to_owned(), count, properties: Vec::new() });
             }
             (_, ["property", words @ ..]) => {
-                let Some(element) = elements.last_mut() else { return error("a property before any element") };
+                let Some(element) = elements.last_mut() else {
+                    return error("a property before any element");
+                };
                 let property = match words {
                     ["list", length, scalar, name] => {
                         (Scalar::from_name(scalar), Some(Scalar::from_name(length)), name)
@@ -138,9 +142,13 @@ pub(super) fn parse(bytes: &[u8], file: &Source) -> Result<(Header, usize)> {
                     [scalar, name] => (Scalar::from_name(scalar), None, name),
                     _ => return error("a property without type and name"),
                 };
-                let (Some(scalar), list, name) = property else { return error("an unknown type of property") };
+                let (Some(scalar), list, name) = property else {
+                    return error("an unknown type of property");
+                };
                 let list = match list {
-                    Some(None | Some(Scalar::F32 | Scalar::F64)) => return error("an unknown type of a list's length"),
+                    Some(None | Some(Scalar::F32 | Scalar::F64)) => {
+                        return error("an unknown type of a list's length");
+                    }
                     Some(length) => length,
                     None => None,
                 };

@@ -34,7 +34,8 @@ pub(crate) fn assert_closed(
     let mut random = Random::from_seed(seed);
     let (mut chords, mut judged) = (0, 0);
     for _ in 0..count {
-        let toward = center + 0.8 * radius * DVec3::from_array(std::array::from_fn(|_| random.between(-1.0, 1.0)));
+        let toward =
+            center + 0.8 * radius * DVec3::from_array(std::array::from_fn(|_| random.between(-1.0, 1.0)));
         let d = DVec3::from(random.direction());
         let o = toward - d * 4.0 * radius;
         let boundary = boundary(parts, o, d);
@@ -87,7 +88,12 @@ fn boxes_are_closed() {
     assert_eq!(parts.len(), 6);
     assert_closed(&parts, |p| decided(box_distance(p, min, max), 1e-9), 100_000, 1);
     let size = max - min;
-    assert!((parts.iter().map(Primitive::area).sum::<f64>() - 2.0 * (size.x * size.y + size.y * size.z + size.z * size.x)).abs() < 1e-12);
+    assert!(
+        (parts.iter().map(Primitive::area).sum::<f64>()
+            - 2.0 * (size.x * size.y + size.y * size.z + size.z * size.x))
+            .abs()
+            < 1e-12
+    );
 }
 
 #[test]
@@ -204,7 +210,8 @@ fn smooth_profiles_have_no_crease() {
     }
     assert!(profile.pieces()[0].normal_at(0.0).distance(-DVec2::Y) < 1e-12);
     for point in points {
-        let nearest = profile.pieces().iter().map(|piece| piece.distance(point.into())).fold(f64::MAX, f64::min);
+        let nearest =
+            profile.pieces().iter().map(|piece| piece.distance(point.into())).fold(f64::MAX, f64::min);
         assert!(nearest < 1e-15);
     }
 }
@@ -271,7 +278,8 @@ fn impossible_objects_are_refused_with_reasons() {
     refused(cylinder(1.0, [1.0, 1.0], Ends::Capped), "1 distinct points");
     refused(cone(1.0, f64::INFINITY, Ends::Capped), "height is inf");
     refused(torus(0.5, 0.6, WHOLE_TURN, WHOLE_TURN), "must not cross the axis");
-    let u_turn = Profile::lines(&[[0.1, 0.0], [0.5, 0.0], [0.5, 1.0], [0.1, 1.0], [0.1, 0.5], [0.4, 0.5]]).unwrap();
+    let u_turn =
+        Profile::lines(&[[0.1, 0.0], [0.5, 0.0], [0.5, 1.0], [0.1, 1.0], [0.1, 0.5], [0.4, 0.5]]).unwrap();
     assert!(revolution(&u_turn, WHOLE_TURN, Ends::Open).is_ok());
     let hook = Profile::lines(&[[0.1, 0.0], [0.5, 0.0], [0.5, 1.0], [0.3, 0.5], [0.3, -0.5]]);
     refused(hook.and_then(|p| revolution(&p, WHOLE_TURN, Ends::Capped)), "meets itself");

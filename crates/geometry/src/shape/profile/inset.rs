@@ -10,11 +10,11 @@ use super::{Piece, Profile, ShapeError};
 use hyaline_math::DVec2;
 use std::f64::consts::TAU;
 
-/// Pieces parallel to `outer` at `distance` to the inside, walked up, from height `floor` or the axis to the rim.
+/// Pieces parallel to `outer` at `distance` to the inside, walked up from height `floor` or the axis to the rim.
 ///
 /// # Errors
-/// Where nothing is left of the curve, it never comes down to the floor, or the profile is curved more tightly than the
-/// distance allows.
+/// Where nothing is left of the curve, it never comes down to the floor, or the profile is curved more tightly than
+/// the distance allows.
 pub(crate) fn inset(outer: &Profile, distance: f64, floor: f64) -> Result<Vec<Piece>, ShapeError> {
     let pieces = outer.pieces();
     let axis = 1e-12 * outer.size();
@@ -32,14 +32,16 @@ pub(crate) fn inset(outer: &Profile, distance: f64, floor: f64) -> Result<Vec<Pi
     for i in (0..pieces.len()).rev() {
         let too_thick = || {
             let [r, y] = pieces[i].at(0.5).to_array();
-            let remedy =
-                format!("the profile is too tightly curved for it near radius {r}, height {y}: give a thinner wall");
+            let remedy = format!(
+                "the profile is too tightly curved for it near radius {r}, height {y}: give a thinner wall"
+            );
             ShapeError::out_of_range("wall", distance, remedy)
         };
         let parallel = pieces[i].inset(distance).ok_or_else(too_thick)?;
         let start = if i > 0 { joint(&pieces[i - 1], &pieces[i], distance) } else { None };
         let last = parallel.unclamped(end, 1.0);
-        let first = start.map_or(-continuation(&parallel, outer.size()), |start| parallel.unclamped(start, 0.0));
+        let first =
+            start.map_or(-continuation(&parallel, outer.size()), |start| parallel.unclamped(start, 0.0));
         if first >= last {
             return Err(too_thick());
         }
@@ -80,7 +82,9 @@ fn cut_at_bottom(piece: &Piece, floor: f64, axis: f64) -> Option<Piece> {
     let cut = fractions.filter(|&s| s < 1.0).reduce(f64::max)?;
     let rest = piece.trimmed(cut, 1.0);
     Some(match rest {
-        Piece::Line { from, to } if (from.y - floor).abs() <= axis => Piece::line(DVec2::new(from.x, floor), to),
+        Piece::Line { from, to } if (from.y - floor).abs() <= axis => {
+            Piece::line(DVec2::new(from.x, floor), to)
+        }
         Piece::Line { .. } | Piece::Arc { .. } => rest,
     })
 }
@@ -95,7 +99,9 @@ fn joint(a: &Piece, b: &Piece, distance: f64) -> Option<DVec2> {
         return (cosine > -1.0 + 1e-9).then(|| corner - (n_a + n_b) * (distance / (1.0 + cosine)));
     }
     let meetings = match (a.inset(distance)?, b.inset(distance)?) {
-        (Piece::Line { from: p, to }, Piece::Line { from: q, to: other }) => line_line(p, to - p, q, other - q),
+        (Piece::Line { from: p, to }, Piece::Line { from: q, to: other }) => {
+            line_line(p, to - p, q, other - q)
+        }
         (Piece::Line { from, to }, Piece::Arc { center, radius, .. })
         | (Piece::Arc { center, radius, .. }, Piece::Line { from, to }) => {
             line_circle(from, to - from, center, radius)

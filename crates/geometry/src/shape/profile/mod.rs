@@ -88,7 +88,8 @@ impl Profile {
         for piece in &pieces {
             positive("length of a profile's piece", piece.length())?;
             if piece.least_radius() < -1e-9 * size {
-                let remedy = "the profile must stay on one side of the axis; give a smooth curve more points where it swings too far";
+                let remedy =
+                    "the profile must stay on one side of the axis; a smooth curve needs more points here";
                 return Err(ShapeError::out_of_range("radius of a profile", piece.least_radius(), remedy));
             }
         }

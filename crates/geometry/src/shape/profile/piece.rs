@@ -41,7 +41,7 @@ impl Piece {
         Self::Arc { center, radius, start, sweep }
     }
 
-    /// The arc that leaves `from` along the unit vector `tangent` and reaches `to`; a line where that is nearly straight.
+    /// The arc that leaves `from` along the unit vector `tangent` and reaches `to`; a line where nearly straight.
     pub fn tangent_arc(from: DVec2, tangent: DVec2, to: DVec2) -> Self {
         let chord = to - from;
         let (sine, cosine) = (tangent.perp_dot(chord), tangent.dot(chord));
@@ -208,7 +208,8 @@ impl Piece {
         }
     }
 
-    /// How far along an arc the direction `angle` about its center comes, ≥ 0, above 1 past its end; `None` for a line.
+    /// How far along an arc the direction `angle` about its center comes, ≥ 0, above 1 past its end; `None` on a
+    /// line.
     fn fraction_of_angle(&self, angle: f64) -> Option<f64> {
         match *self {
             Self::Line { .. } => None,

@@ -43,7 +43,7 @@ impl Lens {
 /// Whether light reaches a point: the density of nothing cannot be tested.
 fn is_lit(lamp: &Lamp, p: Vec3) -> bool {
     let mut random = Random::from_seed(77);
-    (0..1000).any(|_| lamp.light.sample_direct(p, random_pair(&mut random)).is_some())
+    (0..1000).any(|_| lamp.sample_clearly(p, random_pair(&mut random)).is_some())
 }
 
 /// The test through a lens, for points outside the ball about a lamp.
@@ -51,12 +51,12 @@ fn magnified_test(lamp: &Lamp, p: Vec3, seed: u64) -> ChiSquare {
     let lens = Lens::toward(lamp, p);
     let mut random = Random::from_seed(seed);
     let sample = || {
-        let sample = lamp.light.sample_direct(p, random_pair(&mut random))?;
-        Some(lens.magnify(sample.wi))
+        let wi = lamp.sample_clearly(p, random_pair(&mut random))?;
+        Some(lens.magnify(wi))
     };
     let pdf = |image| {
         let Some((wi, factor)) = lens.shrink(image) else { return 0.0 };
-        f64::from(lamp.pdf(p, wi)) / factor
+        lamp.pdf_clearly(p, wi) / factor
     };
     direction_test(sample, pdf, SAMPLE_COUNT)
 }
@@ -64,8 +64,8 @@ fn magnified_test(lamp: &Lamp, p: Vec3, seed: u64) -> ChiSquare {
 /// The test on all directions.
 fn plain_test(lamp: &Lamp, p: Vec3, seed: u64) -> ChiSquare {
     let mut random = Random::from_seed(seed);
-    let sample = || Some(to_array(lamp.light.sample_direct(p, random_pair(&mut random))?.wi));
-    let pdf = |wi| f64::from(lamp.pdf(p, to_vector(wi)));
+    let sample = || Some(to_array(lamp.sample_clearly(p, random_pair(&mut random))?));
+    let pdf = |wi| lamp.pdf_clearly(p, to_vector(wi));
     direction_test(sample, pdf, SAMPLE_COUNT)
 }
 

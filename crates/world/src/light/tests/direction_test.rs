@@ -12,7 +12,7 @@ const AZIMUTHS: usize = 24;
 const UNIFORM_SHARE: f64 = 0.02;
 
 /// Error of an expected count that the statistic does not notice.
-const COUNT_TOLERANCE: f64 = 0.2;
+const COUNT_TOLERANCE: f64 = 0.05;
 
 /// Tests a sampler of directions against its density per solid angle.
 ///

@@ -87,6 +87,17 @@ fn a_sphere_that_shines_inward_lights_all_points_inside_alike() {
 }
 
 #[test]
+fn a_sphere_turned_inside_out_shines_inward_only() {
+    let primitive = Primitive { flipped: true, ..Primitive::new(sphere(0.5)) };
+    let light = Light::Shape(ShapeLight::new(primitive, Spectrum::splat(L), ShiningSides::Outer));
+    let got = irradiance(&light, Vec3::new(0.1, 0.2, -0.3), Vec3::new(0.36, -0.48, 0.8), 100_000);
+    assert_equal("inside out", &got, PI * f64::from(L));
+    assert!(light.sample_direct(Vec3::ONE, Vec2::splat(0.4)).is_none());
+    let start = light.sample_emission(Vec2::splat(0.3), Vec2::splat(0.6)).unwrap();
+    assert!(start.direction.dot(start.origin) < 0.0);
+}
+
+#[test]
 fn lamps_of_any_shape_light_a_ball_that_encloses_them_with_their_power() {
     // The irradiance on the ball's inside, integrated over it, is what the lamp sends out.
     for lamp in &lamps() {

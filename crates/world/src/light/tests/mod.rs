@@ -66,10 +66,24 @@ impl Lamp {
         candidates.iter().map(|candidate| self.geometry.surface(&ray, candidate)).collect()
     }
 
-    /// Density of a direction: that of all places it leads to.
-    fn pdf(&self, p: Vec3, wi: Vec3) -> f32 {
-        self.hits(p, wi).iter().map(|hit| self.light.pdf_direct(p, wi, Some(hit))).sum()
+    /// A direction to a place that is not seen edge-on: toward the outline of a curved lamp that is sampled by area the
+    /// density has no bound, and no quadrature integrates it.
+    fn sample_clearly(&self, p: Vec3, u: Vec2) -> Option<Vec3> {
+        let sample = self.light.sample_direct(p, u)?;
+        let target = sample.target.expect("a lamp has a surface");
+        is_seen_clearly(target.n, sample.wi).then_some(sample.wi)
     }
+
+    /// Density of `sample_clearly`: that of all places a direction leads to.
+    fn pdf_clearly(&self, p: Vec3, wi: Vec3) -> f64 {
+        let hits = self.hits(p, wi);
+        let clear = hits.iter().filter(|hit| is_seen_clearly(hit.ng, wi));
+        clear.map(|hit| f64::from(self.light.pdf_direct(p, wi, Some(hit)))).sum()
+    }
+}
+
+fn is_seen_clearly(n: Vec3, wi: Vec3) -> bool {
+    n.dot(wi).abs() > 0.1
 }
 
 fn sphere(radius: f64) -> Shape {

@@ -1,0 +1,246 @@
+//! Thousands of damaged files: every one gives a scene or an error, none a panic, none takes long.
+
+use hyaline_formats::{load_image, load_mesh, load_mitsuba_text, load_toml_text};
+use std::path::Path;
+use std::time::Instant;
+
+const TOML: &str = include_str!("scenes/everything.toml");
+const XML: &str = include_str!("scenes/everything.xml");
+
+/// Damaged variants of each file.
+const ROUNDS: u32 = 4000;
+/// Bound on the time for one variant, seconds; they take under a millisecond.
+const PATIENCE: f64 = 2.0;
+
+/// Random numbers with a fixed seed.
+///
+/// Source: Knuth, The Art of Computer Programming, vol. 2, 3rd ed., §3.3.4, table 1 (MMIX).
+struct Random(u64);
+
+impl Random {
+    fn below(&mut self, limit: usize) -> usize {
+        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (self.0 >> 33) as usize % limit.max(1)
+    }
+}
+
+const NUMBERS: [&str; 16] = [
+    "nan",
+    "inf",
+    "-inf",
+    "0",
+    "-1",
+    "1e400",
+    "1e-320",
+    "-0.0",
+    "1e38",
+    "4294967296",
+    "9223372036854775807",
+    "0.5",
+    "\"2 mm\"",
+    "[1, 2]",
+    "true",
+    "",
+];
+
+/// Damages a file in one to three of the ways that happen, or that attackers think of.
+fn damage(bytes: &[u8], random: &mut Random) -> Vec<u8> {
+    let mut bytes = bytes.to_vec();
+    for _ in 0..1 + random.below(3) {
+        if bytes.is_empty() {
+            break;
+        }
+        let at = random.below(bytes.len());
+        let length = (1 + random.below(40)).min(bytes.len() - at);
+        match random.below(7) {
+            0 => bytes[at] ^= 1 << random.below(8),
+            1 => bytes[at] = random.below(256) as u8,
+            2 => bytes.truncate(at),
+            3 => drop(bytes.drain(at..at + length)),
+            4 => {
+                let copy = bytes[at..at + length].to_vec();
+                let target = random.below(bytes.len());
+                bytes.splice(target..target, copy);
+            }
+            5 => swap_words(&mut bytes, random),
+            _ => replace_number(&mut bytes, random),
+        }
+    }
+    bytes
+}
+
+/// Exchanges two words.
+fn swap_words(bytes: &mut Vec<u8>, random: &mut Random) {
+    let mut words: Vec<Vec<u8>> = bytes.split(|byte| *byte == b' ').map(<[u8]>::to_vec).collect();
+    let (a, b) = (random.below(words.len()), random.below(words.len()));
+    words.swap(a, b);
+    *bytes = words.join(&b' ');
+}
+
+/// Puts another number in the place of one.
+fn replace_number(bytes: &mut Vec<u8>, random: &mut Random) {
+    let starts: Vec<usize> = (1..bytes.len())
+        .filter(|i| {
+            bytes[*i].is_ascii_digit() && !bytes[*i - 1].is_ascii_alphanumeric() && bytes[*i - 1] != b'.'
+        })
+        .collect();
+    if starts.is_empty() {
+        return;
+    }
+    let start = starts[random.below(starts.len())];
+    let is_number = |byte: &u8| byte.is_ascii_digit() || *byte == b'.';
+    let end = start + bytes[start..].iter().take_while(|byte| is_number(byte)).count();
+    bytes.splice(start..end, NUMBERS[random.below(NUMBERS.len())].bytes());
+}
+
+/// Feeds damaged variants of `bytes` to `read`; returns how many it accepted.
+fn feed(bytes: &[u8], seed: u64, rounds: u32, mut read: impl FnMut(&[u8]) -> bool) -> u32 {
+    let mut random = Random(seed);
+    let mut accepted = 0;
+    for round in 0..rounds {
+        let variant = damage(bytes, &mut random);
+        let start = Instant::now();
+        accepted += u32::from(read(&variant));
+        assert!(start.elapsed().as_secs_f64() < PATIENCE, "variant {round} takes too long");
+    }
+    accepted
+}
+
+/// Feeds damaged variants through a file of the given ending.
+fn feed_file(ending: &str, bytes: &[u8], seed: u64, rounds: u32, read: impl Fn(&Path) -> bool) {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join(format!("a.{ending}"));
+    std::fs::write(&path, bytes).unwrap();
+    assert!(read(&path), "the sound file is accepted");
+    let accepted = feed(bytes, seed, rounds, |variant| {
+        std::fs::write(&path, variant).unwrap();
+        read(&path)
+    });
+    assert!(accepted < rounds, "some variants are refused");
+}
+
+#[test]
+fn damaged_toml_scenes_are_survived() {
+    let read = |bytes: &[u8]| {
+        let text = String::from_utf8_lossy(bytes);
+        match load_toml_text(&text, "a.toml", Path::new("."), &[]) {
+            Ok(_) => true,
+            Err(error) => {
+                assert!(error.source.is_some() && !error.message.is_empty(), "{error:?}");
+                false
+            }
+        }
+    };
+    assert!(read(TOML.as_bytes()));
+    let accepted = feed(TOML.as_bytes(), 1, ROUNDS, read);
+    assert!(accepted > 0 && accepted < ROUNDS, "{accepted}");
+}
+
+#[test]
+fn damaged_overrides_are_survived() {
+    let mut random = Random(2);
+    for _ in 0..ROUNDS {
+        let pairs = [
+            "camera.fov=30",
+            "object.ball.radius=2 mm",
+            "film.filter={kind='tent'}",
+            "light.3.radiance=[1,2,3]",
+        ];
+        let text = damage(pairs[random.below(pairs.len())].as_bytes(), &mut random);
+        let text = String::from_utf8_lossy(&text);
+        let (key, value) = text.split_once('=').unwrap_or((&text, ""));
+        let overrides = [(key.to_owned(), value.to_owned())];
+        let _ = load_toml_text(TOML, "a.toml", Path::new("."), &overrides);
+        let _ = load_mitsuba_text(XML, "a.xml", Path::new("."), &overrides);
+    }
+}
+
+#[test]
+fn damaged_mitsuba_scenes_are_survived() {
+    let read = |bytes: &[u8]| {
+        let text = String::from_utf8_lossy(bytes);
+        load_mitsuba_text(&text, "a.xml", Path::new("."), &[]).is_ok()
+    };
+    assert!(read(XML.as_bytes()));
+    let accepted = feed(XML.as_bytes(), 3, ROUNDS, read);
+    assert!(accepted > 0 && accepted < ROUNDS, "{accepted}");
+}
+
+/// A ball of quadrilaterals, ascii or binary.
+fn ply(is_binary: bool) -> Vec<u8> {
+    let n = 8u8;
+    let format = if is_binary { "binary_little_endian" } else { "ascii" };
+    let mut bytes = format!(
+        "ply\nformat {format} 1.0\ncomment a grid\nelement vertex {}\nproperty float x\nproperty float y\n\
+         property float z\nproperty uchar red\nelement face {}\nproperty list uchar int vertex_indices\nend_header\n",
+        n * n,
+        (n - 1) * (n - 1)
+    )
+    .into_bytes();
+    for i in 0..n * n {
+        let (x, y) = (f32::from(i % n), f32::from(i / n));
+        if is_binary {
+            [x, y, x * y].iter().for_each(|value| bytes.extend(value.to_le_bytes()));
+            bytes.push(i);
+        } else {
+            bytes.extend(format!("{x} {y} {} {i}\n", x * y).bytes());
+        }
+    }
+    for i in 0..(n - 1) * (n - 1) {
+        let corner = i / (n - 1) * n + i % (n - 1);
+        let corners = [corner, corner + 1, corner + n + 1, corner + n];
+        if is_binary {
+            bytes.push(4);
+            corners.iter().for_each(|index| bytes.extend(i32::from(*index).to_le_bytes()));
+        } else {
+            bytes.extend(format!("4 {} {} {} {}\n", corners[0], corners[1], corners[2], corners[3]).bytes());
+        }
+    }
+    bytes
+}
+
+#[test]
+fn damaged_ply_files_are_survived() {
+    feed_file("ply", &ply(false), 4, ROUNDS, |path| load_mesh(path).is_ok());
+    feed_file("ply", &ply(true), 5, ROUNDS, |path| load_mesh(path).is_ok());
+}
+
+#[test]
+fn damaged_obj_files_are_survived() {
+    let mut text = String::from("mtllib a.mtl\no grid\n");
+    for i in 0..64 {
+        text += &format!("v {} {} 0.5\nvt {} {}\nvn 0 0 1\n", i % 8, i / 8, i % 8, i / 8);
+    }
+    for i in 0..49 {
+        let c = i / 7 * 8 + i % 7 + 1;
+        text +=
+            &format!("usemtl m{}\nf {c}/{c}/1 {}/{}/1 {}//1 {}\n", i % 3, c + 1, c + 1, c + 9, c as i32 - 56);
+    }
+    feed_file("obj", text.as_bytes(), 6, ROUNDS, |path| load_mesh(path).is_ok());
+}
+
+#[test]
+fn damaged_images_are_survived() {
+    let mut png = Vec::new();
+    let mut encoder = png::Encoder::new(&mut png, 16, 16);
+    encoder.set_color(png::ColorType::Rgb);
+    let pixels: Vec<u8> = (0..16 * 16 * 3).map(|i| (i * 7 % 251) as u8).collect();
+    encoder.write_header().unwrap().write_image_data(&pixels).unwrap();
+    let mut exr = std::io::Cursor::new(Vec::new());
+    use exr::prelude::{Image, SpecificChannels, WritableImage};
+    let channels =
+        SpecificChannels::rgb(|p: exr::math::Vec2<usize>| (p.0 as f32, p.1 as f32, (p.0 * p.1) as f32));
+    Image::from_channels((16, 16), channels).write().non_parallel().to_buffered(&mut exr).unwrap();
+    let mut pfm = b"PF\n16 16\n-1.0\n".to_vec();
+    (0..16 * 16 * 3).for_each(|i| pfm.extend((i as f32).to_le_bytes()));
+    let mut hdr = b"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 16 +X 16\n".to_vec();
+    for row in 0..16 {
+        hdr.extend([2, 2, 0, 16]);
+        (0..4).for_each(|channel| hdr.extend([128 + 10, row * 3 + channel, 6, 1, 2, 3, 4, 5, 6]));
+    }
+    for (ending, bytes, seed) in
+        [("png", &png, 7), ("exr", exr.get_ref(), 8), ("pfm", &pfm, 9), ("hdr", &hdr, 10)]
+    {
+        feed_file(ending, bytes, seed, 1500, |path| load_image(path).is_ok());
+    }
+}
