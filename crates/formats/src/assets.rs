@@ -8,6 +8,9 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+/// Images by path and by how their values were taken.
+type Images = BTreeMap<(PathBuf, Option<Encoding>), Arc<ImageData>>;
+
 /// Reader of the files beside a scene.
 ///
 /// Names are relative to the scene's folder or absolute; they may lead out of the folder, but only to regular files
@@ -16,7 +19,7 @@ use std::sync::Arc;
 pub(crate) struct Assets {
     base_dir: PathBuf,
     meshes: RefCell<BTreeMap<PathBuf, Arc<MeshData>>>,
-    images: RefCell<BTreeMap<(PathBuf, Option<Encoding>), Arc<ImageData>>>,
+    images: RefCell<Images>,
 }
 
 impl Assets {

@@ -33,6 +33,9 @@ use std::sync::Arc;
 
 type Result<T> = std::result::Result<T, SceneError>;
 
+/// Reads a scene from its text, the file's name, the folder of its files, and overrides.
+type TextReader = fn(&str, &str, &Path, &[(String, String)]) -> Result<SceneDescription>;
+
 /// Reads a scene file; its ending (`.toml`, `.xml`) tells the format.
 ///
 /// - `overrides`: pairs of `--set KEY=VALUE`. In TOML any key by its dotted path, array elements by name or index; in
@@ -46,19 +49,18 @@ pub fn load(
 ) -> std::result::Result<SceneDescription, SceneError> {
     let file: Arc<str> = Arc::from(path.display().to_string());
     let source = Source::file(file.clone());
-    let read: fn(&str, &str, &Path, &[(String, String)]) -> Result<SceneDescription> =
-        match ending(path).as_str() {
-            "toml" => load_toml_text,
-            "xml" => load_mitsuba_text,
-            "gltf" | "glb" | "pbrt" => {
-                let message = format!("scenes ending in .{} can't be read yet", ending(path));
-                return Err(SceneError::at(&source, message).with_remedy("give a .toml or .xml scene"));
-            }
-            _ => {
-                let error = SceneError::at(&source, "the ending of the file's name tells no scene format");
-                return Err(error.with_remedy("the formats are .toml (hyaline) and .xml (Mitsuba 3)"));
-            }
-        };
+    let read: TextReader = match ending(path).as_str() {
+        "toml" => load_toml_text,
+        "xml" => load_mitsuba_text,
+        "gltf" | "glb" | "pbrt" => {
+            let message = format!("scenes ending in .{} can't be read yet", ending(path));
+            return Err(SceneError::at(&source, message).with_remedy("give a .toml or .xml scene"));
+        }
+        _ => {
+            let error = SceneError::at(&source, "the ending of the file's name tells no scene format");
+            return Err(error.with_remedy("the formats are .toml (hyaline) and .xml (Mitsuba 3)"));
+        }
+    };
     let bytes = assets::read_file(&source, &file, path)?;
     let text = String::from_utf8(bytes).map_err(|error| not_text(&file, error.as_bytes()))?;
     let base_dir = path.parent().unwrap_or(Path::new(""));
@@ -106,6 +108,14 @@ pub fn load_mesh(path: &Path) -> std::result::Result<MeshData, SceneError> {
     mesh::read(path, &assets::read_file(&Source::file(name.as_str()), &name, path)?)
 }
 
+/// Reads a mesh from the content of a file whose name is `file_name`.
+///
+/// # Errors
+/// As for [`load_mesh`].
+pub fn mesh_from_bytes(bytes: &[u8], file_name: &str) -> std::result::Result<MeshData, SceneError> {
+    mesh::read(Path::new(file_name), bytes)
+}
+
 /// Reads an image file (`.png`, `.exr`, `.pfm`, `.hdr`) as linear Rec. 709 colors; 8- and 16-bit images are taken as
 /// sRGB.
 ///
@@ -114,6 +124,14 @@ pub fn load_mesh(path: &Path) -> std::result::Result<MeshData, SceneError> {
 pub fn load_image(path: &Path) -> std::result::Result<ImageData, SceneError> {
     let name = path.display().to_string();
     image::read(path, &assets::read_file(&Source::file(name.as_str()), &name, path)?, None)
+}
+
+/// Reads an image from the content of a file whose name is `file_name`.
+///
+/// # Errors
+/// As for [`load_image`].
+pub fn image_from_bytes(bytes: &[u8], file_name: &str) -> std::result::Result<ImageData, SceneError> {
+    image::read(Path::new(file_name), bytes, None)
 }
 
 /// The ending of a file's name, in lower case, without the dot.

@@ -61,7 +61,7 @@ impl Aggregate {
     pub fn build(items: Vec<Item>) -> Self {
         let boxes: Vec<Bounds> = items.iter().map(|item| within_range(item.geometry.bounds())).collect();
         let (mut tree, leaves) = bvh::build(&boxes, 1);
-        tree.relabel(|leaf| leaves[leaf][0] as usize);
+        tree.relabel(|leaf| leaves.get(leaf)[0] as usize);
         Self { items, tree, level: VerifiedLevel::new(SimdLevel::detect()) }
     }
 

@@ -1,17 +1,21 @@
 //! What a scene holds, one line for each thing.
 
-use hyaline_math::DVec3;
+use crate::limit;
+use hyaline_math::{DVec3, Transform};
 use hyaline_scene::{
     Absorption, BoundaryDescription, CameraDescription, FileIntegrator, FilmDescription, IndexDescription,
     LightDescription, LightKind, MaterialDescription, MaterialKind, MediumDescription, Metal,
     ObjectDescription, PixelFilter, Projection, SceneDescription, Settings, ShapeDescription,
     TextureDescription, TextureKind,
 };
+use hyaline_transport::integrator;
 
 /// All lines, in the order: film, settings, cameras, media, materials, textures, objects, lights.
 pub(crate) fn lines(scene: &SceneDescription) -> Vec<String> {
     let mut lines = vec![film(&scene.film), settings(&scene.settings)];
-    lines.extend(scene.settings.file_integrator.as_ref().map(file_integrator));
+    lines.extend(
+        scene.settings.file_integrator.as_ref().map(|file| format!("file asks  {}", file_integrator(file))),
+    );
     lines.extend(scene.cameras.iter().map(|item| camera(item)));
     lines.extend(scene.surrounding.as_ref().map(|name| format!("world      filled with '{}'", name.value)));
     lines.extend(scene.media.iter().map(|item| medium(item)));
@@ -33,16 +37,23 @@ fn film(film: &FilmDescription) -> String {
 }
 
 fn settings(settings: &Settings) -> String {
-    let integrator = settings.integrator.as_deref().unwrap_or("the default integrator");
-    let passes =
-        settings.passes.map_or_else(|| "the default number of".to_owned(), |passes| passes.to_string());
-    format!("settings   {integrator}, {passes} passes, seed {}", settings.seed)
+    let integrator = match &settings.integrator {
+        Some(name) => name.clone(),
+        None => format!("{} (default)", integrator::NAMES[0]),
+    };
+    let passes = match settings.passes {
+        Some(passes) => passes.to_string(),
+        None => format!("{} (default)", limit::DEFAULT_PASSES),
+    };
+    let sampler = format!("{:?}", settings.sampler).to_lowercase();
+    format!("settings   {integrator}, {passes} passes, seed {}, {sampler} samples", settings.seed)
 }
 
-fn file_integrator(file: &FileIntegrator) -> String {
+/// What an imported file asks of its own renderer.
+pub(crate) fn file_integrator(file: &FileIntegrator) -> String {
     let depth = file.max_depth.map_or_else(String::new, |depth| format!(", depth {depth}"));
     let spp = file.spp.map_or_else(String::new, |spp| format!(", {spp} samples per pixel"));
-    format!("file asks  {}{depth}{spp} (obeyed with --as-file only)", file.name)
+    format!("{}{depth}{spp} (obeyed with --as-file only)", file.name)
 }
 
 fn camera(camera: &CameraDescription) -> String {
@@ -124,8 +135,21 @@ fn object(object: &ObjectDescription) -> String {
         format!(", shines with {:?} ({:?})", emission.color, emission.quantity).to_lowercase()
     });
     let word = if object.emission.is_some() { "light " } else { "object" };
+    let (form, scale) = (shape(&object.shape), scale(&object.placement));
     let finish = &object.material.value;
-    format!("{word}     '{}': {}{boundary}, finish '{finish}'{emission}", object.name, shape(&object.shape))
+    format!("{word}     '{}': {form}{scale}{boundary}, finish '{finish}'{emission}", object.name)
+}
+
+/// How much a placement enlarges, in words; nothing where it does not.
+fn scale(placement: &Transform) -> String {
+    let axes = placement.linear();
+    let lengths = [axes.x_axis.length(), axes.y_axis.length(), axes.z_axis.length()];
+    if lengths.iter().all(|length| (length - 1.0).abs() < 1e-6) {
+        return String::new();
+    }
+    let [x, y, z] =
+        lengths.map(|length| format!("{length:.4}").trim_end_matches('0').trim_end_matches('.').to_owned());
+    if x == y && y == z { format!(" scaled by {x}") } else { format!(" scaled by {x}, {y}, {z}") }
 }
 
 fn shape(shape: &ShapeDescription) -> String {

@@ -6,7 +6,7 @@ use hyaline_render::Limits;
 use hyaline_scene::Settings;
 
 /// Number of passes where nobody says anything.
-const DEFAULT_PASSES: u32 = 64;
+pub(crate) const DEFAULT_PASSES: u32 = 64;
 
 /// The limits of the command line, else the file's where it is to be obeyed, else the scene's passes, else 64.
 ///

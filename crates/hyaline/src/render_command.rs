@@ -10,7 +10,7 @@ use crate::plan::{self, Plan};
 use crate::progress_bar::Bar;
 use crate::report::{Report, Seconds};
 use crate::signal::Signals;
-use crate::{memory, picture, scene_source};
+use crate::{inventory, memory, picture, scene_source};
 use hyaline_film::Film;
 use hyaline_render::{Job, Outcome, Workers};
 use hyaline_world::World;
@@ -27,21 +27,9 @@ pub(crate) fn run(arguments: &RenderArguments) -> Result<u8, Failure> {
     let workers = Workers::new(arguments.threads).map_err(|error| {
         Failure::usage(format!("--threads: {error}")).with_remedy("ask for fewer threads")
     })?;
-
-    let load_start = Instant::now();
-    let mut scene = scene_source::load(arguments.scene.as_deref(), &arguments.set)?;
-    let load_time = load_start.elapsed();
-
-    let start = Instant::now();
-    let plan = plan::plan(arguments, &mut scene)?;
-    let film = files.film.open(digest::film_header(&scene, &plan))?;
     let mut warnings = Warnings::default();
-    warnings.tell_notes(&scene.notes);
-    let (world, notes) = workers.run(|| World::compile(&scene))?;
-    warnings.tell_notes(&notes);
-    drop(scene);
-    let build_time = start.elapsed();
-
+    let Ready { world, plan, film, start, load_time, build_time } =
+        make_ready(arguments, &files, &workers, &mut warnings)?;
     let job = Job {
         view: plan.view,
         settings: plan.settings,
@@ -52,10 +40,44 @@ pub(crate) fn run(arguments: &RenderArguments) -> Result<u8, Failure> {
         cancel: &signals.cancel,
     };
     let outcome = render(&world, &plan, &job, film, &files, &mut warnings);
-    files.write(&outcome.film, plan.exposure)?;
+    workers.run(|| files.write(&outcome.film, plan.exposure))?;
     tell_faults(&outcome, &world, &mut warnings);
-    tell(arguments, &files, &outcome, load_time, build_time, warnings)?;
+    tell(arguments, &files, &outcome, [load_time, build_time], warnings)?;
     Ok(signals.exit_code().unwrap_or(0))
+}
+
+/// All that a render starts from.
+struct Ready {
+    world: World,
+    plan: Plan,
+    film: Film,
+    /// When the scene's files had been read: a time limit counts from here.
+    start: Instant,
+    load_time: Duration,
+    build_time: Duration,
+}
+
+/// Reads and compiles the scene, and opens the film.
+fn make_ready(
+    arguments: &RenderArguments,
+    files: &Files,
+    workers: &Workers,
+    warnings: &mut Warnings,
+) -> Result<Ready, Failure> {
+    let load_start = Instant::now();
+    let mut scene = workers.run(|| scene_source::load(arguments.scene.as_deref(), &arguments.set))?;
+    let load_time = load_start.elapsed();
+
+    let start = Instant::now();
+    let plan = plan::plan(arguments, &mut scene)?;
+    let film = files.film.open(digest::film_header(&scene, &plan))?;
+    warnings.tell_notes(&scene.notes);
+    if let Some(file) = scene.settings.file_integrator.as_ref().filter(|_| !arguments.as_file) {
+        message::print(&format!("note: the file asks for {}", inventory::file_integrator(file)));
+    }
+    let (world, notes) = workers.run(|| World::compile(&scene))?;
+    warnings.tell_notes(&notes);
+    Ok(Ready { world, plan, film, start, load_time, build_time: start.elapsed() })
 }
 
 /// Makes the passes, with a progress bar, keeping the film now and then.
@@ -108,8 +130,7 @@ fn tell(
     arguments: &RenderArguments,
     files: &Files,
     outcome: &Outcome,
-    load_time: Duration,
-    build_time: Duration,
+    [load_time, build_time]: [Duration; 2],
     warnings: Warnings,
 ) -> Result<(), Failure> {
     let passes = outcome.film.passes().len();

@@ -135,9 +135,10 @@ impl<'a> Run<'a> {
         passes
     }
 
-    /// Adds what a batch has finished; a pass of which part is missing is given up.
+    /// Adds the passes that a batch has finished. The first of which part is missing is given up, and so are those
+    /// after it: a canceled render, too, has made a run of passes without gaps.
     fn add_whole_passes(&mut self, batches: &Batches<'_>, memory: &[PassSamples]) {
-        for pass in memory.iter().filter(|pass| batches.is_whole(pass)) {
+        for pass in memory.iter().take_while(|pass| batches.is_whole(pass)) {
             let film = &mut self.film;
             self.job.workers.run(|| film.add_tile(pass.number, batches.crop, &pass.samples));
             // Only passes that the film lacks are begun, so that none is refused here.

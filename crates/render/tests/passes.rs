@@ -24,8 +24,10 @@ const CROP: Rect = Rect { x0: 3, y0: 2, x1: 43, y1: 36 };
 struct Shared {
     /// Asks the render to stop.
     cancel: AtomicBool,
-    /// The clock, seconds: each pass takes one.
+    /// The clock, seconds.
     seconds: AtomicU64,
+    /// What a pass adds to the clock, seconds.
+    pass_seconds: u64,
 }
 
 /// An integrator whose samples tell pixel and pass; it can be made to ask for a stop in the midst of a pass.
@@ -58,7 +60,7 @@ impl Integrator for Counting {
 
 impl Prepared for Counting {
     fn begin_pass<'a>(&'a self, pass: u32, stats: &mut Stats) -> Box<dyn Pass + 'a> {
-        self.shared.seconds.fetch_add(1, Ordering::SeqCst);
+        self.shared.seconds.fetch_add(self.shared.pass_seconds, Ordering::SeqCst);
         stats.photons += 1;
         Box::new(CountingPass { integrator: self, pass })
     }
@@ -121,16 +123,17 @@ struct Run {
     time: Option<u64>,
     threads: usize,
     cancel_in: Option<u32>,
+    pass_seconds: u64,
 }
 
 impl Run {
     fn of(passes: Range<u32>) -> Self {
-        Self { passes, time: None, threads: 2, cancel_in: None }
+        Self { passes, time: None, threads: 2, cancel_in: None, pass_seconds: 1 }
     }
 
     /// Runs on `film`; returns the outcome and the number of passes at each checkpoint.
     fn on(&self, film: Film) -> (Outcome, Vec<u64>) {
-        let shared = Arc::new(Shared::default());
+        let shared = Arc::new(Shared { pass_seconds: self.pass_seconds, ..Shared::default() });
         let integrator = Counting { shared: Arc::clone(&shared), cancel_in: self.cancel_in };
         let workers = Workers::new(NonZeroUsize::new(self.threads)).expect("threads");
         let (width, height) = FRAME;
@@ -182,6 +185,16 @@ fn a_canceled_render_keeps_whole_passes_only() {
     let (outcome, _) = Run { threads: 1, cancel_in: Some(5), ..Run::of(0..20) }.on(empty_film());
     assert!(outcome.was_canceled);
     assert_eq!(outcome.film, film_of(0..5));
+}
+
+#[test]
+fn a_render_canceled_amid_many_passes_has_made_the_first_of_them() {
+    for threads in [1, 2, 7] {
+        let run = Run { threads, cancel_in: Some(40), pass_seconds: 0, ..Run::of(0..60) };
+        let (outcome, _) = run.on(empty_film());
+        assert!(outcome.was_canceled && outcome.passes_made <= 40);
+        assert_eq!(outcome.film, film_of(0..outcome.passes_made));
+    }
 }
 
 #[test]

@@ -20,8 +20,8 @@ pub use material::{ColorSource, MaterialDescription, MaterialKind, Metal, Scalar
 pub use medium::{Absorption, IndexDescription, MediumDescription, Scattering};
 pub use mesh::MeshData;
 pub use object::{
-    BoundaryDescription, Emission, EmissionQuantity, FillLayer, GeneratedForm, ObjectDescription, ProfileCurve,
-    RimKind, ShapeDescription, ShapePart, VesselDescription, VesselProfile,
+    BoundaryDescription, Emission, EmissionQuantity, FillLayer, GeneratedForm, ObjectDescription,
+    ProfileCurve, RimKind, ShapeDescription, ShapePart, VesselDescription, VesselProfile,
 };
 pub use settings::{FileIntegrator, FilmDescription, PixelFilter, SamplerKind, Settings};
 pub use texture::{ImageData, TextureDescription, TextureKind};

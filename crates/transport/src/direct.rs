@@ -7,8 +7,8 @@ use hyaline_math::{Ray, Vec3};
 use hyaline_sampling::{Sampler, mis};
 use hyaline_scattering::{MediumSet, Transport};
 use hyaline_spectrum::Spectrum;
-use hyaline_world::{World, mask};
 use hyaline_world::light::{DirectSample, Light};
+use hyaline_world::{World, mask};
 
 /// A vertex that asks for light.
 pub struct DirectLight<'a> {
@@ -38,7 +38,13 @@ impl DirectLight<'_> {
     }
 
     /// Scattered light of `light`, one sample; `probability` is that of having chosen it, for MIS.
-    pub fn from_light(&self, light: &Light, probability: f32, u: hyaline_math::Vec2, stats: &mut Stats) -> Spectrum {
+    pub fn from_light(
+        &self,
+        light: &Light,
+        probability: f32,
+        u: hyaline_math::Vec2,
+        stats: &mut Stats,
+    ) -> Spectrum {
         let hit = &self.vertex.hit;
         let Some(sample) = light.sample_direct(hit.p, u) else { return Spectrum::ZERO };
         let f = self.vertex.bsdf.eval(self.wo, sample.wi, Transport::Radiance);

@@ -46,8 +46,8 @@ fn through_boundaries(world: &World, mut ray: Ray, mut set: MediumSet, stats: &m
         let Some(candidate) = world.geometry.closest(&ray, mask::PATH) else {
             return result * medium.transmittance(ray.t_max);
         };
-        let (hit, encounter) = 
-            world.meet(&ray, &candidate, &mut set, mask::PATH, &mut |object| stats.count_never_entered(object));
+        let (hit, encounter) = world
+            .meet(&ray, &candidate, &mut set, mask::PATH, &mut |object| stats.count_never_entered(object));
         result *= medium.transmittance(hit.t);
         let Some(straight) = world.straight_through(&hit, &encounter) else { return Spectrum::ZERO };
         result *= straight;

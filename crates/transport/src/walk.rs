@@ -11,6 +11,7 @@ use hyaline_spectrum::Spectrum;
 use hyaline_world::{Encounter, World};
 
 /// What a walk ends at.
+#[expect(clippy::large_enum_variant, reason = "a box would be an allocation for every ray")]
 pub enum Event {
     /// Nothing more: the surroundings.
     Sky {
@@ -74,7 +75,7 @@ pub fn advance(world: &World, ray: &Ray, visible: u8, set: &mut MediumSet, stats
             transmittance *= medium.transmittance(f32::INFINITY);
             return Event::Sky { transmittance };
         };
-        let (hit, encounter) = 
+        let (hit, encounter) =
             world.meet(&ray, &candidate, set, visible, &mut |object| stats.count_never_entered(object));
         transmittance *= medium.transmittance(hit.t);
         distance += hit.t;

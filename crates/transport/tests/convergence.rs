@@ -19,8 +19,11 @@ const SIZE: (u32, u32) = (24, 16);
 fn scene() -> World {
     let mut kit = SceneKit::new();
     let color = |c: f32| ColorSource::Constant([c; 3]);
-    let shiny =
-        MaterialKind::Phong { diffuse: color(0.3), specular: color(0.5), exponent: ScalarSource::Constant(30.0) };
+    let shiny = MaterialKind::Phong {
+        diffuse: color(0.3),
+        specular: color(0.5),
+        exponent: ScalarSource::Constant(30.0),
+    };
     kit.absorbing_medium("glass", 1.5, [0.1, 0.3, 0.6], 0).matte("matte", 0.6).material("shiny", shiny);
     kit.surface("floor", floor(0.0, 5.0), "matte");
     kit.solid("glass", sphere(DVec3::new(-0.6, 0.5, 0.0), 0.5), "glass");
@@ -56,7 +59,12 @@ fn tiles_of_any_size_give_the_pixels_of_the_full_frame_bit_for_bit() {
                     for ((x, y), sample) in tile.pixels().zip(samples) {
                         let whole = &frames[pass as usize][(y * w + x) as usize];
                         let bits = |s: &PixelSample| {
-                            (s.beauty.map(f32::to_bits), s.normal.map(f32::to_bits), s.depth.map(f32::to_bits), s.object)
+                            (
+                                s.beauty.map(f32::to_bits),
+                                s.normal.map(f32::to_bits),
+                                s.depth.map(f32::to_bits),
+                                s.object,
+                            )
                         };
                         assert_eq!(bits(sample), bits(whole), "{integrator}, ({x}, {y}), pass {pass}");
                     }
@@ -86,8 +94,11 @@ fn the_variance_of_the_mean_falls_as_one_over_the_number_of_passes() {
     let slope = ln(variances[2] / variances[0]) / ln(f64::from(counts[2]) / f64::from(counts[0]));
     assert!((slope + 1.0).abs() < 0.1, "the slope is {slope}: {variances:?}");
     // What one render says of its own error is what the renders say of each other.
-    let own: f64 =
-        shot(&world, "path", SamplerKind::Independent, 1).tiles(4, 0..64).iter().map(Moments::variance_of_mean).sum();
+    let own: f64 = shot(&world, "path", SamplerKind::Independent, 1)
+        .tiles(4, 0..64)
+        .iter()
+        .map(Moments::variance_of_mean)
+        .sum();
     assert!((own / variances[2] - 1.0).abs() < 0.35, "{own} claimed, {} found", variances[2]);
 }
 

@@ -38,7 +38,14 @@ fn a_ball_a_box_and_a_torus_are_invisible() {
     for (shape, what) in [
         (sphere(DVec3::ZERO, 0.8), "ball"),
         (cuboid(DVec3::splat(-0.5), DVec3::new(0.5, 0.3, 0.4)), "box"),
-        (hyaline_scene::ShapeDescription::Box { min: DVec3::splat(-0.5), max: DVec3::splat(0.5), radius: 0.12 }, "rounded box"),
+        (
+            hyaline_scene::ShapeDescription::Box {
+                min: DVec3::splat(-0.5),
+                max: DVec3::splat(0.5),
+                radius: 0.12,
+            },
+            "rounded box",
+        ),
         (
             hyaline_scene::ShapeDescription::Torus {
                 major_radius: 0.6,

@@ -11,7 +11,7 @@ use hyaline_math::{DVec3, Ray};
 use hyaline_scene::{ColorSource, MaterialKind};
 use scene_kit::*;
 
-const SAMPLES: u32 = 60_000;
+const SAMPLES: u32 = 40_000;
 
 /// Half the width of everything, so large that no edge is met.
 const WIDE: f64 = 500.0;
@@ -123,10 +123,11 @@ fn panes_in_contact_have_one_boundary_between_them_or_none() {
     let mut one = SceneKit::new();
     one.medium("glass", 1.5).solid("front", slab(1.0, 0.25), "glass").solid("back", slab(1.25, 0.5), "glass");
     let mut two = SceneKit::new();
-    two.medium("glass", 1.5)
-        .medium("water", 1.333)
-        .solid("front", slab(1.0, 0.25), "glass")
-        .solid("back", slab(1.25, 0.5), "water");
+    two.medium("glass", 1.5).medium("water", 1.333).solid("front", slab(1.0, 0.25), "glass").solid(
+        "back",
+        slab(1.25, 0.5),
+        "water",
+    );
     for angle in [0.0, 1.0] {
         let cos = float::cos(angle);
         let air_glass = reflected(cos, 1.5);
@@ -153,7 +154,11 @@ fn a_slab_shifts_a_ray_sideways_and_does_not_turn_it() {
         let expected = thickness * sin * (1.0 - cos / (n * n - sin * sin).sqrt());
         let aside = out.points[1] - direction * out.points[1].dot(direction);
         // Roundings of the hit points, which lie up to 1 / cos away.
-        assert!((aside.length() - expected).abs() < 1e-6 / cos, "{degrees}°: {} for {expected}", aside.length());
+        assert!(
+            (aside.length() - expected).abs() < 1e-6 / cos,
+            "{degrees}°: {} for {expected}",
+            aside.length()
+        );
         let r = reflected(cos, n);
         assert!((out.weight - (1.0 - r).powi(2)).abs() < 1e-5);
     }

@@ -32,7 +32,12 @@ fn still_life(scale: f64) -> SceneKit {
         .absorbing_medium("amber", 1.55, per_length([0.2, 0.9, 2.5]), 2)
         .matte("table", 0.6);
     kit.surface("table", floor(0.0, 30.0 * s), "table");
-    kit.object("tumbler", tumbler(RimKind::Round, &[("tea", 0.6, 0.001)], 20.0 * s), BoundaryDescription::None, "dielectric");
+    kit.object(
+        "tumbler",
+        tumbler(RimKind::Round, &[("tea", 0.6, 0.001)], 20.0 * s),
+        BoundaryDescription::None,
+        "dielectric",
+    );
     kit.solid("ball", sphere(at(1.3, 0.45, 0.2), 0.45 * s), "glass");
     kit.solid("mesh", ball_mesh(at(-1.2, 0.6, 0.5).as_vec3(), (0.5 * s) as f32, 12), "amber");
     kit.lamp("lamp", rectangle(at(-0.5, 4.0, 0.5), DVec3::X * 1.5 * s, DVec3::Z * 1.5 * s), 0.0);
@@ -92,8 +97,13 @@ fn the_same_random_numbers_give_nearly_the_same_samples_at_every_scale() {
     let reference = samples(1.0);
     for scale in [2.0_f64.powi(-10), 2.0_f64.powi(10)] {
         let other = samples(scale);
-        let different = reference.iter().zip(&other).filter(|(a, b)| (*a - *b).abs() > 1e-3 * (1.0 + *a)).count();
-        assert!(different * 100 < reference.len(), "scale {scale}: {different} of {} differ", reference.len());
+        let different =
+            reference.iter().zip(&other).filter(|(a, b)| (*a - *b).abs() > 1e-3 * (1.0 + *a)).count();
+        assert!(
+            different * 100 < reference.len(),
+            "scale {scale}: {different} of {} differ",
+            reference.len()
+        );
     }
 }
 
@@ -104,7 +114,10 @@ fn a_closed_room_stays_dark_in_a_bright_world() {
         let mut kit = SceneKit::new();
         kit.absorbing_medium("glass", 1.5, [0.0; 3], 3).absorbing_medium("water", 1.333, [0.0; 3], 1);
         kit.matte("wall", 0.9).sky(1e6);
-        kit.light(LightKind::Point { position: at(9.0, 9.0, 9.0), intensity: [(1e6 * scale * scale) as f32; 3] });
+        kit.light(LightKind::Point {
+            position: at(9.0, 9.0, 9.0),
+            intensity: [(1e6 * scale * scale) as f32; 3],
+        });
         kit.surface("room", cuboid(at(-2.0, 0.0, -2.0), at(2.0, 3.0, 2.0)), "wall");
         let vessel = tumbler(RimKind::Flat, &[("water", 0.7, 0.0)], 20.0 * scale);
         kit.object("tumbler", vessel, BoundaryDescription::None, "dielectric");
@@ -120,7 +133,10 @@ fn a_closed_room_stays_dark_in_a_bright_world() {
             shot.render(shot.full_frame(), 0..8, |pass, samples| {
                 for ((x, y), sample) in shot.full_frame().pixels().zip(samples) {
                     let leak = luminance(sample);
-                    assert!(leak == 0.0, "{integrator}, scale {scale}: {leak} leaks into ({x}, {y}) in pass {pass}");
+                    assert!(
+                        leak == 0.0,
+                        "{integrator}, scale {scale}: {leak} leaks into ({x}, {y}) in pass {pass}"
+                    );
                 }
             });
         }

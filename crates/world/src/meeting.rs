@@ -2,9 +2,11 @@
 
 use crate::World;
 use hyaline_geometry::{Candidate, ItemGeometry, SurfaceHit};
-use hyaline_math::{Ray, Vec3};
 use hyaline_math::ray::offset_distance;
-use hyaline_scattering::{BoundaryKind, Crossing, MediumId, MediumSet, ObjectId, Side, Sides, SurfaceBsdf, SurfaceCrossing};
+use hyaline_math::{Ray, Vec3, offset_origin};
+use hyaline_scattering::{
+    BoundaryKind, Crossing, MediumId, MediumSet, ObjectId, Side, Sides, SurfaceBsdf, SurfaceCrossing,
+};
 use hyaline_spectrum::Spectrum;
 use smallvec::{SmallVec, smallvec};
 
@@ -48,27 +50,42 @@ impl World {
         if self.boundaries.of(item.object) == BoundaryKind::None {
             return (hit, Encounter::opaque());
         }
-        let mut surfaces = smallvec![(item.object, Side::from_cosine(ray.direction.dot(hit.ng)))];
-        if item.may_coincide
-            && let Some(opaque) = self.gather(ray, &hit, visible, &mut surfaces)
+        let side = Side::from_cosine(ray.direction.dot(hit.ng));
+        let mut surfaces = smallvec![(item.object, side)];
+        // At the outline of a body rounding may swap the faces that a ray enters and leaves by.
+        let is_swapped = side == Side::Leaving && self.is_unentered(item.object, set);
+        if (item.may_coincide || is_swapped)
+            && let Some(opaque) = self.gather(ray, &hit, visible, is_swapped, &mut surfaces)
         {
+            // At the foot of a wall the path is inside the body when it meets what the body stands on.
+            surfaces.retain(|&mut (_, side)| side == Side::Entering);
+            set.commit(&self.boundaries, &surfaces);
             return (self.geometry.surface(ray, &opaque), Encounter::opaque());
         }
         let crossing = Some(set.crossing(&self.boundaries, &surfaces, never_entered));
         (hit, Encounter { crossing, surfaces })
     }
 
+    /// Whether `object` is a solid that a path within `set` has not entered.
+    fn is_unentered(&self, object: ObjectId, set: &MediumSet) -> bool {
+        matches!(self.boundaries.of(object), BoundaryKind::Solid { .. }) && !set.holds(object)
+    }
+
     /// Adds the boundaries that coincide with `hit`; returns the first opaque surface that does, if any.
+    ///
+    /// - `is_swapped`: whether the ray leaves at `hit` what it has not entered.
     fn gather(
         &self,
         ray: &Ray,
         hit: &SurfaceHit,
         visible: u8,
+        is_swapped: bool,
         surfaces: &mut SmallVec<[SurfaceCrossing; 2]>,
     ) -> Option<Candidate> {
         // What the start of the next ray jumps over, measured along this one.
         let jump = offset_distance(hit.p, hit.p_error) / hit.ng.dot(ray.direction).abs().max(1e-3);
         let window = Ray { t_min: hit.t.next_down(), t_max: (hit.t + jump).next_up(), ..*ray };
+        let next_start = offset_origin(hit.p, hit.p_error, hit.ng, ray.direction);
         let mut opaque: Option<Candidate> = None;
         self.geometry.crossings(&window, visible, &mut |other: Candidate| {
             if (other.item, other.primitive) == (hit.item, hit.primitive) {
@@ -76,8 +93,16 @@ impl World {
             }
             let object = self.items[other.item as usize].object;
             if self.boundaries.of(object) != BoundaryKind::None {
-                let ng = self.geometry.surface(ray, &other).ng;
-                surfaces.push((object, Side::from_cosine(ray.direction.dot(ng))));
+                let surface = self.geometry.surface(ray, &other);
+                let cosine = ray.direction.dot(surface.ng);
+                // At grazing incidence the jump is long but hardly leaves the first surface: what the next ray still
+                // has before it, it will meet by itself. So it is with the two faces at the outline of a body.
+                let is_passed = (next_start - surface.p).dot(surface.ng) * cosine >= 0.0;
+                let is_other_face =
+                    is_swapped && cosine < 0.0 && object == self.items[hit.item as usize].object;
+                if is_passed || is_other_face {
+                    surfaces.push((object, Side::from_cosine(cosine)));
+                }
             } else if opaque.is_none_or(|first| (other.t, other.item) < (first.t, first.item)) {
                 opaque = Some(other);
             }
@@ -102,7 +127,13 @@ impl World {
     }
 
     /// How the surface scatters light that comes along `ray` through the medium `within`.
-    pub fn surface_bsdf(&self, ray: &Ray, hit: &SurfaceHit, encounter: &Encounter, within: MediumId) -> SurfaceBsdf {
+    pub fn surface_bsdf(
+        &self,
+        ray: &Ray,
+        hit: &SurfaceHit,
+        encounter: &Encounter,
+        within: MediumId,
+    ) -> SurfaceBsdf {
         let (ior, eta) = match encounter.crossing {
             Some(Crossing::Boundary { from, to, .. }) => (self.ior(from), self.ior(to) / self.ior(from)),
             Some(Crossing::Hidden) | None => (self.ior(within), 1.0),
@@ -136,7 +167,9 @@ impl World {
     fn material_of(&self, hit: &SurfaceHit, encounter: &Encounter) -> u32 {
         let item = &self.items[hit.item as usize];
         match encounter.crossing {
-            Some(Crossing::Boundary { owner, .. }) if owner != item.object => self.object_materials[owner.0 as usize],
+            Some(Crossing::Boundary { owner, .. }) if owner != item.object => {
+                self.object_materials[owner.0 as usize]
+            }
             _ => self.material_at(item.material, hit),
         }
     }

@@ -84,6 +84,12 @@ fn bombs_do_not_go_off() {
     assert!(load(entities).unwrap_err().message.contains("DTD"), "{}", load(entities).unwrap_err());
     assert!(load(&format!("<scene>{}</scene>", "<bsdf type='twosided'>".repeat(300_000))).is_err());
     assert!(load(&format!("<scene>{}{}</scene>", "<a>".repeat(100), "</a>".repeat(100))).is_err());
+    let steps = format!(
+        "<scene><shape type='sphere'>{}{}",
+        "<transform>".repeat(100_000),
+        "</transform>".repeat(100_000)
+    );
+    assert!(load(&format!("{steps}</shape></scene>")).unwrap_err().message.contains("nested"));
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("self.xml");
     std::fs::write(

@@ -64,7 +64,6 @@ impl Builder<'_> {
     /// Reads a file into the plugin `parent`, or as the scene itself.
     fn file(&mut self, text: &str, file: &Arc<str>, parent: Option<usize>) -> Result<()> {
         let places = Places::new(file.clone(), text);
-        refuse_deep_nesting(text, &places)?;
         let options =
             roxmltree::ParsingOptions { allow_dtd: false, nodes_limit: MAX_NODES, ..Default::default() };
         let document = roxmltree::Document::parse_with_options(text, options).map_err(|error| {
@@ -109,7 +108,7 @@ impl Builder<'_> {
     ) -> Result<()> {
         let source = places.source(name_range(node));
         if depth > MAX_DEPTH {
-            return Err(SceneError::at(&source, format!("elements are nested more than {MAX_DEPTH} deep")));
+            return Err(too_deep(&source));
         }
         let tag = present_tag(node.tag_name().name());
         match tag {
@@ -186,18 +185,20 @@ impl Builder<'_> {
             attributes.push((attribute.name().to_owned(), value));
         }
         let name = attributes.iter().find(|(key, _)| key == "name").map(|(_, name)| present_name(name));
+        let source = places.source(name_range(node));
+        if depth > MAX_DEPTH {
+            return Err(too_deep(&source));
+        }
         let mut steps = Vec::new();
-        if depth < MAX_DEPTH {
-            for child in node.children().filter(|child| child.is_element()) {
-                steps.push(self.property(child, places, depth + 1)?);
-            }
+        for child in node.children().filter(|child| child.is_element()) {
+            steps.push(self.property(child, places, depth + 1)?);
         }
         Ok(Property {
             tag: present_tag(node.tag_name().name()).to_owned(),
             name: name.unwrap_or_default(),
             attributes,
             steps,
-            source: places.source(name_range(node)),
+            source,
             used: Cell::new(false),
         })
     }
@@ -251,27 +252,14 @@ impl Builder<'_> {
     }
 }
 
+fn too_deep(source: &Source) -> SceneError {
+    SceneError::at(source, format!("elements are nested more than {MAX_DEPTH} deep"))
+}
+
 /// Bytes of an element's start, for underlining.
 fn name_range(node: roxmltree::Node<'_, '_>) -> std::ops::Range<usize> {
     let start = node.range().start;
     start..start + 1 + node.tag_name().name().len()
-}
-
-/// The XML reader follows nesting recursively: what is absurdly deep is refused before.
-fn refuse_deep_nesting(text: &str, places: &Places<'_>) -> Result<()> {
-    let (mut depth, bytes) = (0usize, text.as_bytes());
-    for (i, pair) in bytes.windows(2).enumerate() {
-        match pair {
-            [b'<', b'/'] | [b'/', b'>'] => depth = depth.saturating_sub(1),
-            [b'<', b'!' | b'?'] => {}
-            [b'<', _] => depth += 1,
-            _ => {}
-        }
-        if depth > 16 * MAX_DEPTH {
-            return Err(SceneError::at(&places.source(i..i + 1), "elements are nested too deep"));
-        }
-    }
-    Ok(())
 }
 
 /// The XML reader's message without its own " at line:column".

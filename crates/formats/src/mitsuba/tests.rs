@@ -296,6 +296,14 @@ fn overrides_reach_what_can_be_changed() {
         load_mitsuba_text(&text, "scene.xml", Path::new("."), &[(key.to_owned(), value.to_owned())])
     };
     assert_eq!(set("film.size", "[32, 16]").unwrap().film.width, 32);
+    let cropped = text.replace("<rfilter", "<integer name='crop_width' value='700'/><rfilter");
+    let smaller = [("film.size".to_owned(), "[32, 16]".to_owned())];
+    assert!(
+        load_mitsuba_text(&cropped, "scene.xml", Path::new("."), &smaller)
+            .unwrap_err()
+            .message
+            .contains("crop")
+    );
     assert_eq!(set("settings.passes", "4").unwrap().settings.passes, Some(4));
     assert!(
         matches!(set("camera.fov", "20").unwrap().cameras[0].projection, Projection::Perspective { fov, .. }

@@ -36,8 +36,13 @@ pub(super) fn read(mut table: Table<'_>, film: &mut FilmDescription) -> Result<(
     {
         return Err(field.error(format!("a film of {} x {} pixels is too large", film.width, film.height)));
     }
-    if let Some(field) = table.take("crop") {
-        film.crop = Some(crop(field, film)?);
+    match (table.take("crop"), film.crop, size.or(width).or(height)) {
+        (Some(field), _, _) => film.crop = Some(crop(field, film)?),
+        (None, Some([_, _, x1, y1]), Some(field)) if x1 > film.width || y1 > film.height => {
+            let error = field.error("the film's crop lies outside of the new size");
+            return Err(error.with_remedy("set film.crop too"));
+        }
+        _ => {}
     }
     film.filter = table.read("filter", film.filter, filter)?;
     film.exposure = table.read("exposure", film.exposure, |field| field.number_f32(Limits::POSITIVE))?;

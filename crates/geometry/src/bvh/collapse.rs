@@ -8,8 +8,8 @@
 //! §3.1, eqs. 1-4.
 
 use super::binary::{self, BinaryNode};
-use super::simd::collect_in_large_pages;
 use super::node::{Child, MAX_DEPTH, Node, Tree, WIDTH};
+use super::simd::collect_in_large_pages;
 use hyaline_math::Bounds;
 
 /// Expected time to visit a node, in some unit.
@@ -22,13 +22,13 @@ const LEAF_COST: f32 = 0.8;
 const SPLITS: usize = WIDTH - 1;
 
 /// Builds a tree over boxes, with at most `leaf_size` of them in a leaf; also tells which each leaf holds, ascending.
-pub(crate) fn build(boxes: &[Bounds], leaf_size: u32) -> (Tree, Vec<Vec<u32>>) {
+pub(crate) fn build(boxes: &[Bounds], leaf_size: u32) -> (Tree, Leaves) {
     if boxes.is_empty() {
-        return (Tree { nodes: Vec::new(), root: None, bounds: Bounds::EMPTY }, Vec::new());
+        return (Tree { nodes: Vec::new(), root: None, bounds: Bounds::EMPTY }, Leaves::default());
     }
     let build_from = |binary: &[BinaryNode]| {
         let plans = plan(binary, leaf_size);
-        let mut emitter = Emitter { binary, plans: &plans, nodes: Vec::new(), leaves: Vec::new() };
+        let mut emitter = Emitter { binary, plans: &plans, nodes: Vec::new(), leaves: Leaves::default() };
         let root = emitter.emit();
         let nodes = collect_in_large_pages(emitter.nodes.into_iter());
         (Tree { nodes, root: Some(root), bounds: binary[0].bounds }, emitter.leaves)
@@ -38,6 +38,33 @@ pub(crate) fn build(boxes: &[Bounds], leaf_size: u32) -> (Tree, Vec<Vec<u32>>) {
         Some(built) => built,
         // As deep as the binary tree at most, which is less than 32 here.
         None => build_from(&binary::halved(boxes)),
+    }
+}
+
+/// The primitives of each leaf.
+#[derive(Debug, Default)]
+pub(crate) struct Leaves {
+    primitives: Vec<u32>,
+    ends: Vec<usize>,
+}
+
+impl Leaves {
+    pub(crate) fn len(&self) -> usize {
+        self.ends.len()
+    }
+
+    pub(crate) fn get(&self, leaf: usize) -> &[u32] {
+        let start = if leaf == 0 { 0 } else { self.ends[leaf - 1] };
+        &self.primitives[start..self.ends[leaf]]
+    }
+
+    /// Adds a leaf; returns its index.
+    fn push(&mut self, primitives: impl Iterator<Item = u32>) -> usize {
+        let start = self.primitives.len();
+        self.primitives.extend(primitives);
+        self.primitives[start..].sort_unstable();
+        self.ends.push(self.primitives.len());
+        self.ends.len() - 1
     }
 }
 
@@ -105,7 +132,7 @@ struct Emitter<'a> {
     binary: &'a [BinaryNode],
     plans: &'a [Plan],
     nodes: Vec<Node>,
-    leaves: Vec<Vec<u32>>,
+    leaves: Leaves,
 }
 
 impl Emitter<'_> {
@@ -163,10 +190,7 @@ impl Emitter<'_> {
         // A subtree of n leaves takes 2 n - 1 entries of the depth-first order.
         let end = subtree + 2 * self.binary[subtree].count as usize - 1;
         let leaves = self.binary[subtree..end].iter().filter(|node| node.is_leaf());
-        let mut primitives: Vec<u32> = leaves.map(|node| node.link).collect();
-        primitives.sort_unstable();
-        self.leaves.push(primitives);
-        Child::leaf(self.leaves.len() - 1)
+        Child::leaf(self.leaves.push(leaves.map(|node| node.link)))
     }
 }
 

@@ -28,7 +28,7 @@ impl MeshBvh {
         let boxes: Vec<Bounds> =
             faces.into_par_iter().map(|face| Bounds::from_points(mesh.corners(face))).collect();
         let (tree, leaves) = collapse::build(&boxes, BLOCK as u32);
-        let blocks = collect_in_large_pages(leaves.iter().map(|faces| block(&mesh, faces)));
+        let blocks = collect_in_large_pages((0..leaves.len()).map(|leaf| block(&mesh, leaves.get(leaf))));
         Self { mesh, tree, blocks }
     }
 

@@ -161,10 +161,11 @@ fn reference(ray: &Ray, corners: [Vec3; 3]) -> (f64, [f64; 3], f64) {
 fn triangles_are_crossed_where_algebra_says() {
     let mut random = Random::from_seed(12);
     let mut hits = 0;
-    for _ in 0..500_000 {
+    for _ in 0..200_000 {
         let mut vector = |size: f32| Vec3::from_array(random.direction().map(|x| x as f32)) * size;
         let corners = [vector(1.0), vector(1.0), vector(1.0)];
-        let ray = Ray::new(vector(2.0), vector(1.0));
+        let (origin, target) = (vector(2.0), vector(0.5));
+        let ray = Ray::new(origin, (target - origin).normalize());
         let (t, weights, margin) = reference(&ray, corners);
         let grazing = doubled_area(corners.map(|p| p.as_dvec3())).dot(ray.direction.as_dvec3()).abs();
         if margin < 1e-9 || t.abs() < 1e-9 || grazing < 1e-6 {
@@ -180,7 +181,7 @@ fn triangles_are_crossed_where_algebra_says() {
             assert!((f64::from(found.barycentric.y) - weights[2]).abs() < 1e-6);
         }
     }
-    assert!(hits > 5_000, "{hits}");
+    assert!(hits > 20_000, "{hits}");
 }
 
 #[test]

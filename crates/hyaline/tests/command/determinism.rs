@@ -12,8 +12,8 @@ fn passes_in_parts_merged_in_any_order_are_the_whole() {
     for order in ["a b c", "c a b", "b c a"] {
         let films: Vec<String> = order.split(' ').map(|name| format!("{name}.film")).collect();
         workshop.succeed(&format!("merge {} -o merged.film -o merged.pfm", films.join(" ")));
-        assert_eq!(workshop.bytes("merged.film"), workshop.bytes("whole.film"), "{order}");
-        assert_eq!(workshop.bytes("merged.pfm"), workshop.bytes("whole.pfm"), "{order}");
+        workshop.assert_same("merged.film", "whole.film");
+        workshop.assert_same("merged.pfm", "whole.pfm");
     }
 }
 
@@ -25,8 +25,8 @@ fn a_resumed_film_is_the_whole() {
     workshop.succeed("scene.toml --passes 9..12 --resume part.film -o part.png");
     let run = workshop.succeed("scene.toml --spp 16 --resume part.film -o part.pfm --json");
     assert_eq!(run.json()["passes"], 16);
-    assert_eq!(workshop.bytes("part.film"), workshop.bytes("whole.film"));
-    assert_eq!(workshop.bytes("part.pfm"), workshop.bytes("whole.pfm"));
+    workshop.assert_same("part.film", "whole.film");
+    workshop.assert_same("part.pfm", "whole.pfm");
 }
 
 #[test]
@@ -37,14 +37,14 @@ fn threads_and_time_limits_change_no_bit() {
             "scene.toml --spp 9 --threads {threads} --film {threads}.film -o {threads}.pfm"
         ));
     }
-    assert_eq!(workshop.bytes("1.film"), workshop.bytes("2.film"));
-    assert_eq!(workshop.bytes("1.film"), workshop.bytes("7.film"));
-    assert_eq!(workshop.bytes("1.pfm"), workshop.bytes("7.pfm"));
+    workshop.assert_same("1.film", "2.film");
+    workshop.assert_same("1.film", "7.film");
+    workshop.assert_same("1.pfm", "7.pfm");
 
     let report = workshop.succeed("scene.toml --time 300ms --film timed.film -o timed.pfm --json").json();
     workshop
         .succeed(&format!("scene.toml --passes 0..{} --film counted.film -o counted.pfm", report["passes"]));
-    assert_eq!(workshop.bytes("timed.film"), workshop.bytes("counted.film"));
+    workshop.assert_same("timed.film", "counted.film");
 }
 
 #[test]
@@ -69,5 +69,5 @@ fn another_seed_is_another_picture() {
     let workshop = Workshop::new();
     workshop.succeed("scene.toml --spp 2 --seed 1 -o a.pfm");
     workshop.succeed("scene.toml --spp 2 --seed 2 -o b.pfm");
-    assert_ne!(workshop.bytes("a.pfm"), workshop.bytes("b.pfm"));
+    assert!(workshop.bytes("a.pfm") != workshop.bytes("b.pfm"));
 }

@@ -76,6 +76,14 @@ impl Workshop {
         std::fs::read(self.path(name)).unwrap_or_else(|error| panic!("{name}: {error}"))
     }
 
+    /// Fails where two files differ, telling where and not all that is in them.
+    pub(crate) fn assert_same(&self, a: &str, b: &str) {
+        let (bytes_a, bytes_b) = (self.bytes(a), self.bytes(b));
+        let difference = bytes_a.iter().zip(&bytes_b).position(|(a, b)| a != b);
+        assert_eq!(difference, None, "first difference of {a} and {b}");
+        assert_eq!(bytes_a.len(), bytes_b.len(), "lengths of {a} and {b}");
+    }
+
     /// Names of all files in the folder, sorted.
     pub(crate) fn names(&self) -> Vec<String> {
         let entries = self.folder.path().read_dir().expect("the folder can be read");

@@ -131,7 +131,8 @@ impl Tracer<'_> {
             self.local_term(vertex, wo, set, &mut sampler)
                 + self.both_branches(vertex, wo, set, ray.time, branch, &mut sampler)
         } else if vertex.bsdf.lobe_width() >= 1.0 {
-            self.world.ambient * vertex.bsdf.albedo_estimate() + self.all_lights(vertex, wo, set, &mut sampler)
+            self.world.ambient * vertex.bsdf.albedo_estimate()
+                + self.all_lights(vertex, wo, set, &mut sampler)
         } else {
             self.small_lights(vertex, wo, set, &mut sampler)
                 + self.one_glossy_ray(vertex, wo, set, ray.time, branch, &mut sampler)
@@ -153,7 +154,17 @@ impl Tracer<'_> {
         for (index, way) in vertex.bsdf.branches(wo).into_iter().enumerate() {
             let Some(way) = way else { continue };
             let fork = sampler.fork(index as u32);
-            result += self.follow(vertex, way.wi, way.weight, way.transmits, way.eta_scale, set, time, branch, fork);
+            result += self.follow(
+                vertex,
+                way.wi,
+                way.weight,
+                way.transmits,
+                way.eta_scale,
+                set,
+                time,
+                branch,
+                fork,
+            );
         }
         result
     }
@@ -214,7 +225,13 @@ impl Tracer<'_> {
     }
 
     /// Direct light of the lamps that no ray can hit.
-    fn small_lights(&mut self, vertex: &Vertex, wo: Vec3, set: &MediumSet, sampler: &mut Sampler) -> Spectrum {
+    fn small_lights(
+        &mut self,
+        vertex: &Vertex,
+        wo: Vec3,
+        set: &MediumSet,
+        sampler: &mut Sampler,
+    ) -> Spectrum {
         self.lights_where(vertex, wo, set, sampler, direct::is_delta)
     }
 

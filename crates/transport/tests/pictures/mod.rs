@@ -36,7 +36,8 @@ impl Shot<'_> {
         let view = View { camera: 0, width, height, filter };
         let mut stats = Stats::default();
         let integrator = by_name(self.integrator).unwrap();
-        let prepared = integrator.prepare(self.world, &view, &self.settings, &AtomicBool::new(false), &mut stats);
+        let prepared =
+            integrator.prepare(self.world, &view, &self.settings, &AtomicBool::new(false), &mut stats);
         let mut samples = vec![PixelSample::default(); tile.area()];
         for number in passes {
             prepared.begin_pass(number, &mut stats).render_tile(tile, &mut samples, &mut stats);
@@ -72,7 +73,8 @@ impl Shot<'_> {
     pub fn pixel(&self, passes: u32) -> (Moments, Stats) {
         assert_eq!(self.size, (1, 1));
         let mut moments = Moments::new();
-        let stats = self.render(self.full_frame(), 0..passes, |_, samples| moments.push(luminance(&samples[0])));
+        let stats =
+            self.render(self.full_frame(), 0..passes, |_, samples| moments.push(luminance(&samples[0])));
         (moments, stats)
     }
 }
@@ -92,12 +94,22 @@ pub fn assert_same_picture(a: &[Moments], b: &[Moments], power: f64, what: &str)
     let level = sidak(0.01, a.len());
     for (tile, (a, b)) in a.iter().zip(b).enumerate() {
         let p = p_value(a, b);
-        assert!(p > level, "{what}: tile {tile} is {} in one and {} in the other, p = {p}", a.mean(), b.mean());
+        assert!(
+            p > level,
+            "{what}: tile {tile} is {} in one and {} in the other, p = {p}",
+            a.mean(),
+            b.mean()
+        );
     }
     let (a, b) = (whole(a), whole(b));
     let error = (a.1 + b.1).sqrt();
     assert!(error < power * b.0, "{what}: an error of {error} in {} shows nothing", b.0);
-    assert!((a.0 - b.0).abs() < 3.5 * error + ROUNDING * b.0, "{what}: {} and {} ± {error} on the whole", a.0, b.0);
+    assert!(
+        (a.0 - b.0).abs() < 3.5 * error + ROUNDING * b.0,
+        "{what}: {} and {} ± {error} on the whole",
+        a.0,
+        b.0
+    );
 }
 
 /// Chance of a difference at least as large as this one.

@@ -124,7 +124,6 @@ impl Scene {
 
     /// Place and far medium of the next boundary, if there is one before the wall; the outer `None` means
     /// that the place cannot be told apart from another surface.
-    #[allow(clippy::option_option, reason = "undecided and nothing there are different answers")]
     fn next_boundary(&self, ray: &Ray, medium: Medium) -> Option<Option<(Hit, Medium)>> {
         let gap = 1e-11 * self.size;
         let wall = self.distance_to_wall(ray);

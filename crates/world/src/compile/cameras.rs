@@ -10,7 +10,11 @@ use hyaline_scene::{Note, SceneError};
 ///
 /// # Errors
 /// There is none, or one declares a medium that is not there.
-pub(super) fn compile_all(library: &Library, world: &mut World, notes: &mut Vec<Note>) -> Result<(), SceneError> {
+pub(super) fn compile_all(
+    library: &Library,
+    world: &mut World,
+    notes: &mut Vec<Note>,
+) -> Result<(), SceneError> {
     if library.description.cameras.is_empty() {
         let remedy = "add a [camera] with `from`, `to` and `fov`";
         return Err(SceneError::general("the scene has no camera").with_remedy(remedy));

@@ -10,7 +10,12 @@ use hyaline_scattering::{BoundaryKind, Medium, MediumId};
 /// cross straight. Returns whether there are such items.
 ///
 /// Judged by bounds alone, so it errs on the side of caution: a mark costs a little time, a missing one would be wrong.
-pub(super) fn mark(parts: &mut Parts, media: &[Medium], materials: &[Material], surrounding: MediumId) -> bool {
+pub(super) fn mark(
+    parts: &mut Parts,
+    media: &[Medium],
+    materials: &[Material],
+    surrounding: MediumId,
+) -> bool {
     let bounds: Vec<Bounds> = parts.geometry.iter().map(|item| padded(item.geometry.bounds())).collect();
     let mut has_permeable = false;
     for i in 0..parts.items.len() {

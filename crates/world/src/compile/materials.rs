@@ -8,6 +8,8 @@ use hyaline_scene::{
 };
 use hyaline_spectrum::catalogue;
 
+const MORE_LIGHT: &str = "a surface can't give more light than it gets: keep it within 0…1";
+
 /// Compiles all materials, in order.
 ///
 /// # Errors
@@ -21,9 +23,11 @@ fn compile(library: &Library, description: &Located<MaterialDescription>) -> Res
     let scalar = |source: &ScalarSource| scalar_input(library, source);
     let finish = match &description.kind {
         MaterialKind::Matte { reflectance } => Finish::Matte { reflectance: color(reflectance)? },
-        MaterialKind::Phong { diffuse, specular, exponent } => {
-            Finish::Phong { diffuse: color(diffuse)?, specular: color(specular)?, exponent: scalar(exponent)? }
-        }
+        MaterialKind::Phong { diffuse, specular, exponent } => Finish::Phong {
+            diffuse: color(diffuse)?,
+            specular: color(specular)?,
+            exponent: scalar(exponent)?,
+        },
         MaterialKind::PerfectSpecular { reflectance } => {
             Finish::PerfectSpecular { reflectance: color(reflectance)? }
         }
@@ -36,7 +40,12 @@ fn compile(library: &Library, description: &Located<MaterialDescription>) -> Res
             Finish::GlossySpecular { reflectance: color(reflectance)?, exponent: scalar(exponent)? }
         }
         MaterialKind::SimpleTransparent { k_r, k_t, phong } => {
-            let phong = phong.map(|(diffuse, specular, exponent)| (lanes(diffuse), lanes(specular), exponent));
+            if k_r + k_t > 1.0 + f32::EPSILON {
+                let message = format!("material '{}' has k_r + k_t = {}", description.name, k_r + k_t);
+                return Err(SceneError::at(&description.source, message).with_remedy(MORE_LIGHT));
+            }
+            let phong =
+                phong.map(|(diffuse, specular, exponent)| (lanes(diffuse), lanes(specular), exponent));
             Finish::SimpleTransparent { k_r: *k_r, k_t: *k_t, phong }
         }
         MaterialKind::Dielectric { roughness, tint: (reflected, transmitted) } => Finish::Dielectric {
@@ -44,7 +53,9 @@ fn compile(library: &Library, description: &Located<MaterialDescription>) -> Res
             reflected: color(reflected)?,
             transmitted: color(transmitted)?,
         },
-        MaterialKind::ThinDielectric { ior, tint } => Finish::ThinDielectric { ior: *ior, tint: color(tint)? },
+        MaterialKind::ThinDielectric { ior, tint } => {
+            Finish::ThinDielectric { ior: *ior, tint: color(tint)? }
+        }
         MaterialKind::PassThrough => Finish::PassThrough,
         MaterialKind::Black => Finish::Black,
     };
@@ -63,7 +74,7 @@ fn color_input(
         }
         ColorSource::Constant(color) => {
             let message = format!("material '{}' has a color of {color:?}", material.name);
-            Err(SceneError::at(&material.source, message).with_remedy("a surface can't return more light than it gets: keep each channel in 0…1"))
+            Err(SceneError::at(&material.source, message).with_remedy(MORE_LIGHT))
         }
     }
 }

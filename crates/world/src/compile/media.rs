@@ -11,7 +11,10 @@ use hyaline_spectrum::{Spectrum, catalogue};
 ///
 /// # Errors
 /// An index name that the catalogue lacks, coefficients that cannot be.
-pub(super) fn compile(description: &Located<MediumDescription>, notes: &mut Vec<Note>) -> Result<Medium, SceneError> {
+pub(super) fn compile(
+    description: &Located<MediumDescription>,
+    notes: &mut Vec<Note>,
+) -> Result<Medium, SceneError> {
     let ior = index(description)?;
     if !(ior.is_finite() && ior > 0.0) {
         let message = format!("medium '{}' has index of refraction {ior}", description.name);

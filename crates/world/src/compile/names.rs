@@ -33,6 +33,7 @@ impl<'a> Names<'a> {
 
 /// The candidate most like `name`; ties go to the alphabetically first.
 pub(super) fn nearest<'a>(name: &str, candidates: impl Iterator<Item = &'a str>) -> Option<&'a str> {
-    let distance = |candidate: &str| strsim::damerau_levenshtein(&name.to_lowercase(), &candidate.to_lowercase());
+    let distance =
+        |candidate: &str| strsim::damerau_levenshtein(&name.to_lowercase(), &candidate.to_lowercase());
     candidates.min_by_key(|candidate| (distance(candidate), *candidate))
 }

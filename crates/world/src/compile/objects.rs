@@ -172,7 +172,8 @@ fn add_vessel(
     let built = shapes::vessel(object, vessel)?;
     let glass = library.media.find(&vessel.medium)?;
     let glass_priority = library.description.media[glass].priority;
-    let fill: Vec<usize> = vessel.fill.iter().map(|l| library.media.find(&l.medium)).collect::<Result<_, _>>()?;
+    let fill: Vec<usize> =
+        vessel.fill.iter().map(|l| library.media.find(&l.medium)).collect::<Result<_, _>>()?;
     // Glass must win in the overlap, and the liquids must rank alike, or the layers would eat into each other.
     let lowest = fill.iter().map(|&medium| library.description.media[medium].priority).min();
     let liquid_priority = lowest.map_or(glass_priority, |p| p.min(glass_priority - 1));
@@ -216,12 +217,12 @@ impl Radiating {
 
     fn light(&self, surface: &Surface) -> Light {
         match surface {
-            Surface::Shape(primitive) => {
-                Light::Shape(ShapeLight::new(*primitive, self.radiance, self.sides))
-            }
-            Surface::Mesh { mesh, transform } => {
-                Light::Mesh(MeshLight::new(MeshSampler::new(mesh.clone(), *transform), self.radiance, self.sides))
-            }
+            Surface::Shape(primitive) => Light::Shape(ShapeLight::new(*primitive, self.radiance, self.sides)),
+            Surface::Mesh { mesh, transform } => Light::Mesh(MeshLight::new(
+                MeshSampler::new(mesh.clone(), *transform),
+                self.radiance,
+                self.sides,
+            )),
         }
     }
 }

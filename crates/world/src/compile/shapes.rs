@@ -50,7 +50,8 @@ pub(super) fn resolve_instance<'a>(
         shape = &library.description.objects[library.objects.find(of)?].shape;
     }
     let message = format!("object '{}' repeats an object that repeats it in turn", object.name);
-    Err(SceneError::at(&object.source, message).with_remedy("let instances name an object with a shape of its own"))
+    Err(SceneError::at(&object.source, message)
+        .with_remedy("let instances name an object with a shape of its own"))
 }
 
 /// Meshes with their hierarchies, built once for all objects that share them.
@@ -147,11 +148,15 @@ fn build(
     notes: &mut Vec<Note>,
 ) -> Result<Arc<MeshBvh>, SceneError> {
     data.shading = if flat { Shading::Flat } else { Shading::Smooth };
-    let mesh = Mesh::new(data)
-        .map_err(|error| SceneError::at(&object.source, format!("mesh of object '{}': {error}", object.name)))?;
+    let mesh = Mesh::new(data).map_err(|error| {
+        SceneError::at(&object.source, format!("mesh of object '{}': {error}", object.name))
+    })?;
     if mesh.dropped_faces() > 0 {
-        let message =
-            format!("mesh of object '{}': {} faces without area were dropped", object.name, mesh.dropped_faces());
+        let message = format!(
+            "mesh of object '{}': {} faces without area were dropped",
+            object.name,
+            mesh.dropped_faces()
+        );
         notes.push(Note::info(&object.source, message));
     }
     Ok(Arc::new(MeshBvh::new(mesh)))
@@ -172,7 +177,9 @@ pub(super) fn compile(
     notes: &mut Vec<Note>,
 ) -> Result<Vec<Surface>, SceneError> {
     match shape {
-        ShapeDescription::Mesh { mesh, flat } => Ok(vec![meshes.surface(object, mesh, *flat, placement, notes)?]),
+        ShapeDescription::Mesh { mesh, flat } => {
+            Ok(vec![meshes.surface(object, mesh, *flat, placement, notes)?])
+        }
         ShapeDescription::Generated { form, triangles } => {
             let data = moved(generated(*form, *triangles as usize), placement);
             Ok(vec![Surface::Mesh { mesh: build(object, data, false, notes)?, transform: None }])
@@ -214,8 +221,9 @@ fn primitives(shape: &ShapeDescription) -> Result<Vec<Primitive>, ShapeError> {
         }
         ShapeDescription::Disc { center, normal, radius, inner_radius } => {
             let disc = RevolvedSegment::disc(*radius, *inner_radius, 0.0, WHOLE_TURN)?;
-            let placement = Transform::from_y_axis(*center, *normal, DVec3::Z)
-                .ok_or_else(|| ShapeError::out_of_range("length of a disc's normal", 0.0, "give it a direction"))?;
+            let placement = Transform::from_y_axis(*center, *normal, DVec3::Z).ok_or_else(|| {
+                ShapeError::out_of_range("length of a disc's normal", 0.0, "give it a direction")
+            })?;
             Ok(placed(vec![Primitive::new(Shape::Segment(disc))], &placement))
         }
         ShapeDescription::Rectangle { center, half_u, half_v } => {

@@ -62,11 +62,7 @@ impl Lanes for Avx2 {
                     _mm256_set1_ps(ray.inverse[1]),
                     _mm256_set1_ps(ray.inverse[2]),
                 ],
-                near: [
-                    _mm256_set1_ps(ray.near[0]),
-                    _mm256_set1_ps(ray.near[1]),
-                    _mm256_set1_ps(ray.near[2]),
-                ],
+                near: [_mm256_set1_ps(ray.near[0]), _mm256_set1_ps(ray.near[1]), _mm256_set1_ps(ray.near[2])],
                 far: [_mm256_set1_ps(ray.far[0]), _mm256_set1_ps(ray.far[1]), _mm256_set1_ps(ray.far[2])],
                 t_min: _mm256_set1_ps(ray.t_min),
                 rows: near_rows(ray),
@@ -130,8 +126,7 @@ impl Lanes for Sse2 {
                 let mut end = splat(limit);
                 for axis in 0..3 {
                     let near = _mm_load_ps(node.planes.get_unchecked(ray.rows[axis]).as_ptr().add(half));
-                    let far =
-                        _mm_load_ps(node.planes.get_unchecked(ray.rows[axis] ^ 1).as_ptr().add(half));
+                    let far = _mm_load_ps(node.planes.get_unchecked(ray.rows[axis] ^ 1).as_ptr().add(half));
                     let (near, far) =
                         (_mm_mul_ps(near, ray.inverse[axis]), _mm_mul_ps(far, ray.inverse[axis]));
                     begin = _mm_max_ps(_mm_sub_ps(near, ray.near[axis]), begin);
