@@ -1,10 +1,23 @@
 //! Values of options: from text, with a clear word on what was expected.
 
+use std::num::NonZeroUsize;
 use std::ops::Range;
 use std::time::Duration;
 
 /// Most pixels along one side of a picture.
 pub(crate) const MAX_SIDE: u32 = 65_536;
+
+/// Most threads that can be asked for: more than any machine has, and few enough to start.
+const MAX_THREADS: usize = 1024;
+
+/// A number of threads: 1…[`MAX_THREADS`].
+pub(crate) fn threads(text: &str) -> Result<NonZeroUsize, String> {
+    text.trim()
+        .parse::<NonZeroUsize>()
+        .ok()
+        .filter(|count| count.get() <= MAX_THREADS)
+        .ok_or_else(|| format!("expected a number of threads from 1 to {MAX_THREADS}, not '{text}'"))
+}
 
 /// A time: `30`, `30s`, `1.5m`, `1h`, `500ms`; more than 0.
 pub(crate) fn duration(text: &str) -> Result<Duration, String> {

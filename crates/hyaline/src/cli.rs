@@ -71,7 +71,7 @@ pub(crate) struct RenderArguments {
     #[arg(long, value_name = "N")]
     pub(crate) seed: Option<u64>,
     /// Threads [default: all]
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", value_parser = argument::threads)]
     pub(crate) threads: Option<NonZeroUsize>,
     /// Render these pixels only; x1, y1 exclusive, from the top left
     #[arg(long, value_name = "x0,y0,x1,y1", value_parser = argument::crop)]

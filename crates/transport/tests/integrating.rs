@@ -81,7 +81,8 @@ fn white_matte_things_vanish_in_a_uniform_sky() {
             kit.surface(name, rectangle(n, u, y), "white");
         }
     };
-    let scenes: [(&str, &dyn Fn(&mut SceneKit)); 4] = [
+    type Build<'a> = &'a dyn Fn(&mut SceneKit);
+    let scenes: [(&str, Build); 4] = [
         ("ball", &|kit| {
             kit.surface("ball", sphere(DVec3::ZERO, 0.8), "white");
         }),
