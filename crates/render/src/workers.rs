@@ -8,6 +8,9 @@ use std::time::Duration;
 /// How often the watching thread looks at what the workers do.
 const WATCH_INTERVAL: Duration = Duration::from_millis(100);
 
+/// Stack of a thread, bytes: room for the deepest recursion of `whitted`; untouched pages cost nothing.
+const STACK_SIZE: usize = 32 << 20;
+
 /// A set of threads. What they compute does not depend on how many they are.
 #[derive(Debug)]
 pub struct Workers {
@@ -20,7 +23,9 @@ impl Workers {
     /// # Errors
     /// The system refuses to start that many.
     pub fn new(threads: Option<NonZeroUsize>) -> io::Result<Self> {
-        let builder = rayon::ThreadPoolBuilder::new().num_threads(threads.map_or(0, NonZeroUsize::get));
+        let builder = rayon::ThreadPoolBuilder::new()
+            .num_threads(threads.map_or(0, NonZeroUsize::get))
+            .stack_size(STACK_SIZE);
         Ok(Self { pool: builder.build().map_err(io::Error::other)? })
     }
 

@@ -1,6 +1,7 @@
 //! How much light gets from one point to another in a straight line.
 
 use crate::stats::Stats;
+use crate::walk::LONGEST_WALK;
 use hyaline_geometry::SurfaceHit;
 use hyaline_math::{Ray, Vec3, offset_origin};
 use hyaline_scattering::MediumSet;
@@ -40,7 +41,8 @@ pub fn transmittance(world: &World, ray: &Ray, set: &MediumSet, stats: &mut Stat
 /// The same, crossing what can be crossed straight.
 fn through_boundaries(world: &World, mut ray: Ray, mut set: MediumSet, stats: &mut Stats) -> Spectrum {
     let mut result = Spectrum::ONE;
-    loop {
+    let end = ray.at(ray.t_max);
+    for _ in 0..LONGEST_WALK {
         stats.rays += 1;
         let medium = &world.media[set.active().index()];
         let Some(candidate) = world.geometry.closest(&ray, mask::PATH) else {
@@ -56,6 +58,12 @@ fn through_boundaries(world: &World, mut ray: Ray, mut set: MediumSet, stats: &m
         }
         encounter.commit(world, &mut set);
         ray.origin = offset_origin(hit.p, hit.p_error, hit.ng, ray.direction);
-        ray.t_max -= hit.t;
+        if ray.t_max.is_finite() {
+            // Each crossing steps a little aside: aimed anew, the ray still ends just before its target.
+            let way = end - ray.origin;
+            ray.t_max = way.length();
+            ray.direction = way.try_normalize().unwrap_or(ray.direction);
+        }
     }
+    Spectrum::ZERO
 }

@@ -10,6 +10,9 @@ use hyaline_scattering::{MediumSet, ObjectId, SurfaceBsdf};
 use hyaline_spectrum::Spectrum;
 use hyaline_world::{Encounter, World};
 
+/// Straight crossings in a row, at most: far more than any scene has, and an end where rounding traps a ray.
+pub(crate) const LONGEST_WALK: u32 = 1 << 16;
+
 /// What a walk ends at.
 #[expect(clippy::large_enum_variant, reason = "a box would be an allocation for every ray")]
 pub enum Event {
@@ -67,7 +70,7 @@ pub fn advance(world: &World, ray: &Ray, visible: u8, set: &mut MediumSet, stats
     let mut ray = *ray;
     let mut transmittance = Spectrum::ONE;
     let mut distance = 0.0;
-    loop {
+    for _ in 0..LONGEST_WALK {
         stats.rays += 1;
         let within = set.active();
         let medium = &world.media[within.index()];
@@ -90,4 +93,5 @@ pub fn advance(world: &World, ray: &Ray, visible: u8, set: &mut MediumSet, stats
         ray.origin = offset_origin(hit.p, hit.p_error, hit.ng, ray.direction);
         ray.t_max -= hit.t;
     }
+    Event::Sky { transmittance: Spectrum::ZERO }
 }

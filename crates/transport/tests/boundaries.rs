@@ -185,7 +185,7 @@ fn lit_floor(build: impl Fn(&mut SceneKit)) -> f32 {
     let world = kit.world();
     let from = Vec3::new(0.0, 0.3, 3.0);
     let ray = Ray::new(from, -from.normalize());
-    let settings = RenderSettings { max_depth: Some(0), ..settings() };
+    let settings = RenderSettings { max_depth: Some(1), ..settings() };
     let mut sampler = Sampler::new(settings.sampler, settings.seed, (0, 0), 0);
     let set = world.camera_media[0].clone();
     radiance(&world, &settings, ray, set, &mut sampler, &mut Stats::default(), None).mean(world.lanes)

@@ -57,10 +57,13 @@ impl World {
         if (item.may_coincide || is_swapped)
             && let Some(opaque) = self.gather(ray, &hit, visible, is_swapped, &mut surfaces)
         {
-            // At the foot of a wall the path is inside the body when it meets what the body stands on.
-            surfaces.retain(|&mut (_, side)| side == Side::Entering);
-            set.commit(&self.boundaries, &surfaces);
-            return (self.geometry.surface(ray, &opaque), Encounter::opaque());
+            // At the foot of a wall the path is inside the body when it meets what the body stands on; on a label
+            // stuck to a bottle it is not.
+            let back = offset_origin(opaque.p, opaque.p_error, opaque.ng, -ray.direction);
+            if side == Side::Entering && (back - hit.p).dot(hit.ng) < 0.0 {
+                set.commit(&self.boundaries, &surfaces[..1]);
+            }
+            return (opaque, Encounter::opaque());
         }
         let crossing = Some(set.crossing(&self.boundaries, &surfaces, never_entered));
         (hit, Encounter { crossing, surfaces })
@@ -81,30 +84,30 @@ impl World {
         visible: u8,
         is_swapped: bool,
         surfaces: &mut SmallVec<[SurfaceCrossing; 2]>,
-    ) -> Option<Candidate> {
+    ) -> Option<SurfaceHit> {
         // What the start of the next ray jumps over, measured along this one.
         let jump = offset_distance(hit.p, hit.p_error) / hit.ng.dot(ray.direction).abs().max(1e-3);
-        let window = Ray { t_min: hit.t.next_down(), t_max: (hit.t + jump).next_up(), ..*ray };
+        let window = Ray { t_min: hit.t.next_down(), t_max: (hit.t + jump).next_up().min(ray.t_max), ..*ray };
         let next_start = offset_origin(hit.p, hit.p_error, hit.ng, ray.direction);
-        let mut opaque: Option<Candidate> = None;
+        let mut opaque: Option<SurfaceHit> = None;
         self.geometry.crossings(&window, visible, &mut |other: Candidate| {
             if (other.item, other.primitive) == (hit.item, hit.primitive) {
                 return;
             }
+            let surface = self.geometry.surface(ray, &other);
+            let cosine = ray.direction.dot(surface.ng);
+            // At grazing incidence the jump is long but hardly leaves the first surface: what the next ray still has
+            // before it, it will meet by itself. So it is with the two faces at the outline of a body.
+            let is_passed = (next_start - surface.p).dot(surface.ng) * cosine >= 0.0;
             let object = self.items[other.item as usize].object;
             if self.boundaries.of(object) != BoundaryKind::None {
-                let surface = self.geometry.surface(ray, &other);
-                let cosine = ray.direction.dot(surface.ng);
-                // At grazing incidence the jump is long but hardly leaves the first surface: what the next ray still
-                // has before it, it will meet by itself. So it is with the two faces at the outline of a body.
-                let is_passed = (next_start - surface.p).dot(surface.ng) * cosine >= 0.0;
                 let is_other_face =
                     is_swapped && cosine < 0.0 && object == self.items[hit.item as usize].object;
                 if is_passed || is_other_face {
                     surfaces.push((object, Side::from_cosine(cosine)));
                 }
-            } else if opaque.is_none_or(|first| (other.t, other.item) < (first.t, first.item)) {
-                opaque = Some(other);
+            } else if is_passed && opaque.is_none_or(|first| (other.t, other.item) < (first.t, first.item)) {
+                opaque = Some(surface);
             }
         });
         opaque
@@ -113,6 +116,9 @@ impl World {
     /// Fraction of light that goes straight through, unbent and unreflected; `None` where the surface does more than
     /// that.
     pub fn straight_through(&self, hit: &SurfaceHit, encounter: &Encounter) -> Option<Spectrum> {
+        if self.items[hit.item as usize].light.is_some() {
+            return None;
+        }
         match encounter.crossing {
             Some(Crossing::Hidden) => Some(Spectrum::ONE),
             crossing => {

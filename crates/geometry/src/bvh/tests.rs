@@ -202,7 +202,8 @@ fn depth(tree: &Tree, child: Child) -> usize {
 fn boxes_that_shrink_geometrically_do_not_overflow_the_stack() {
     // Each box a fraction of the last, the most lopsided tree there is.
     for ratio in [0.99_f32, 0.9, 0.7, 0.5, 0.1] {
-        let count = 2000.min((-80.0 / f64::from(ratio.log2())) as usize);
+        let count =
+            2000.min((-80.0 / f64::from(hyaline_math::float::ln(ratio)) / std::f64::consts::LN_2) as usize);
         let boxes: Vec<Bounds> = (0..count)
             .map(|i| Bounds { min: Vec3::ZERO, max: Vec3::splat(1e10 * ratio.powi(i as i32)) })
             .collect();

@@ -192,6 +192,11 @@ impl SurfaceBsdf {
         self.bsdf.is_delta()
     }
 
+    /// Whether part of the light is scattered evenly, as by Lambert's law.
+    pub fn has_diffuse_part(&self) -> bool {
+        matches!(self.bsdf, Bsdf::Matte(_) | Bsdf::Phong(_))
+    }
+
     /// Roughly the fraction of light that leaves the surface, 0…1 per lane: for the albedo layer.
     pub fn albedo_estimate(&self) -> Spectrum {
         self.bsdf.albedo_estimate()

@@ -22,6 +22,9 @@ use std::sync::atomic::AtomicBool;
 /// Bounces after which roulette may end a path; shorter ones carry most of the picture.
 const FIRST_ROULETTE_BOUNCE: u32 = 3;
 
+/// Bounces after which roulette ends even paths that lose nothing: in a closed white room they would go on for ever.
+const PATIENCE_WITH_BOUNCES: u32 = 128;
+
 /// Singular events in a row after which a path turns to geometric normals: shading normals are not reversible, and
 /// light that they let into a mesh may be trapped by total reflection for good.
 const PATIENCE_WITH_SHADING_NORMALS: u32 = 32;
@@ -129,7 +132,7 @@ pub fn radiance(
         result += throughput * emitted(world, &vertex, &ray, &last);
 
         let wo = -ray.direction;
-        if !vertex.bsdf.is_delta() {
+        if !vertex.bsdf.is_delta() && settings.max_depth.is_none_or(|limit| bounces < limit) {
             let light = DirectLight { world, vertex: &vertex, wo, set: &set, use_mis: true };
             result += throughput * light.sample_one(sampler, stats);
         }
@@ -193,6 +196,9 @@ fn emitted(world: &World, vertex: &Vertex, ray: &Ray, last: &LastScatter) -> Spe
 fn survival(weight: f32, bounces: u32, crossings: u32) -> f32 {
     if crossings > PATIENCE_WITH_CROSSINGS {
         return weight.clamp(0.05, 0.95);
+    }
+    if bounces > PATIENCE_WITH_BOUNCES {
+        return weight.clamp(0.0, 0.95);
     }
     if bounces < FIRST_ROULETTE_BOUNCE && weight > 1e-3 { 1.0 } else { weight.clamp(0.0, 1.0) }
 }

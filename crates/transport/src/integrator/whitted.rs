@@ -24,6 +24,9 @@ use std::sync::atomic::AtomicBool;
 /// Depth of the recursion where the settings name none.
 const DEFAULT_DEPTH: u32 = 64;
 
+/// Depth of the recursion at most, whatever the settings say: each level takes its part of the stack.
+const DEEPEST: u32 = 1024;
+
 /// Recursive ray tracing.
 pub struct WhittedIntegrator;
 
@@ -130,7 +133,7 @@ impl Tracer<'_> {
         let reflected = if vertex.bsdf.is_delta() {
             self.local_term(vertex, wo, set, &mut sampler)
                 + self.both_branches(vertex, wo, set, ray.time, branch, &mut sampler)
-        } else if vertex.bsdf.lobe_width() >= 1.0 {
+        } else if vertex.bsdf.has_diffuse_part() {
             self.world.ambient * vertex.bsdf.albedo_estimate()
                 + self.all_lights(vertex, wo, set, &mut sampler)
         } else {
@@ -206,7 +209,9 @@ impl Tracer<'_> {
         if factor.is_zero() {
             return Spectrum::ZERO;
         }
-        if weight < self.settings.min_weight || depth > self.settings.max_depth.unwrap_or(DEFAULT_DEPTH) {
+        if weight < self.settings.min_weight
+            || depth > self.settings.max_depth.unwrap_or(DEFAULT_DEPTH).min(DEEPEST)
+        {
             self.stats.branches_cut += 1;
             return Spectrum::ZERO;
         }

@@ -23,11 +23,19 @@ fn compile(library: &Library, description: &Located<MaterialDescription>) -> Res
     let scalar = |source: &ScalarSource| scalar_input(library, source);
     let finish = match &description.kind {
         MaterialKind::Matte { reflectance } => Finish::Matte { reflectance: color(reflectance)? },
-        MaterialKind::Phong { diffuse, specular, exponent } => Finish::Phong {
-            diffuse: color(diffuse)?,
-            specular: color(specular)?,
-            exponent: scalar(exponent)?,
-        },
+        MaterialKind::Phong { diffuse, specular, exponent } => {
+            if let (ColorSource::Constant(diffuse), ColorSource::Constant(specular)) = (diffuse, specular)
+                && diffuse.iter().zip(specular).any(|(d, s)| d + s > 1.0 + f32::EPSILON)
+            {
+                let message = format!("material '{}' has color + specular above 1", description.name);
+                return Err(SceneError::at(&description.source, message).with_remedy(MORE_LIGHT));
+            }
+            Finish::Phong {
+                diffuse: color(diffuse)?,
+                specular: color(specular)?,
+                exponent: scalar(exponent)?,
+            }
+        }
         MaterialKind::PerfectSpecular { reflectance } => {
             Finish::PerfectSpecular { reflectance: color(reflectance)? }
         }
@@ -40,8 +48,9 @@ fn compile(library: &Library, description: &Located<MaterialDescription>) -> Res
             Finish::GlossySpecular { reflectance: color(reflectance)?, exponent: scalar(exponent)? }
         }
         MaterialKind::SimpleTransparent { k_r, k_t, phong } => {
-            if k_r + k_t > 1.0 + f32::EPSILON {
-                let message = format!("material '{}' has k_r + k_t = {}", description.name, k_r + k_t);
+            let is_fraction = |k: f32| (0.0..=1.0).contains(&k);
+            if !(is_fraction(*k_r) && is_fraction(*k_t) && k_r + k_t <= 1.0 + f32::EPSILON) {
+                let message = format!("material '{}' has k_r = {k_r} and k_t = {k_t}", description.name);
                 return Err(SceneError::at(&description.source, message).with_remedy(MORE_LIGHT));
             }
             let phong =

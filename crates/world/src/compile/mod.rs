@@ -59,6 +59,14 @@ impl<'a> Library<'a> {
         self.medium_or(&self.description.surrounding, MediumId(0))
     }
 
+    /// The media that paths may start in outside of all solids: the world's, and those that cameras declare.
+    fn bases(&self) -> Result<Vec<MediumId>, SceneError> {
+        let surrounding = self.surrounding()?;
+        let cameras = self.description.cameras.iter();
+        let declared = cameras.map(|camera| self.medium_or(&camera.medium, surrounding));
+        std::iter::once(Ok(surrounding)).chain(declared).collect()
+    }
+
     fn medium_or(&self, name: &Option<Located<String>>, default: MediumId) -> Result<MediumId, SceneError> {
         name.as_ref().map_or(Ok(default), |name| self.medium(name))
     }
@@ -85,7 +93,7 @@ impl World {
         let bounds = parts.bounds();
         let shapeless = lights::compile_all(&library, &textures, bounds, parts.lights.len())?;
         parts.lights.extend(shapeless.lights);
-        let has_permeable = coincidence::mark(&mut parts, &media, &materials, library.surrounding()?);
+        let has_permeable = coincidence::mark(&mut parts, &media, &materials, &library.bases()?);
         let mut world = World {
             geometry: Aggregate::build(parts.geometry),
             items: parts.items,

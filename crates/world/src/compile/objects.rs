@@ -16,11 +16,13 @@ use hyaline_scene::{
 use hyaline_spectrum::Spectrum;
 use std::f64::consts::PI;
 
-/// All objects, compiled; `geometry` and `items` go together, and so do the lists by object id.
+/// All objects, compiled; `geometry`, `items` and `pieces` go together, and so do the lists by object id.
 #[derive(Default)]
 pub(super) struct Parts {
     pub(super) geometry: Vec<Item>,
     pub(super) items: Vec<ItemInfo>,
+    /// Which part of a compound each item belongs to.
+    pub(super) pieces: Vec<u32>,
     pub(super) names: Vec<String>,
     pub(super) object_materials: Vec<u32>,
     pub(super) boundaries: Vec<BoundaryKind>,
@@ -44,6 +46,7 @@ impl Parts {
     fn add_surface(
         &mut self,
         object: ObjectId,
+        piece: u32,
         surface: Surface,
         slot_materials: Vec<u32>,
         emission: Option<Radiating>,
@@ -58,6 +61,7 @@ impl Parts {
             self.lights.push(emission.light(&surface));
         }
         let material = self.object_materials[object.0 as usize];
+        self.pieces.push(piece);
         self.items.push(ItemInfo { object, material, slot_materials, light, may_coincide: false });
         let geometry = match surface {
             Surface::Shape(primitive) => ItemGeometry::Shape(primitive),
@@ -100,12 +104,14 @@ fn compile(
     let boundary = boundary(library, &object.boundary)?;
     let surfaces = shapes::compile(object, shape, &object.placement, meshes, notes)?;
     let slot_materials = slot_materials(library, object, shape, material)?;
-    let area: f64 = surfaces.iter().map(Surface::area).sum();
-    let emission = object.emission.as_ref().map(|emission| Radiating::new(emission, area));
+    let emission = object.emission.as_ref().map(|emission| {
+        let area: f64 = surfaces.iter().map(|(surface, _)| surface.area()).sum();
+        Radiating::new(emission, area)
+    });
     warn_without_media(object, &materials[material as usize], &boundary, notes);
     let id = parts.add_object(object.name.clone(), boundary, material);
-    for surface in surfaces {
-        parts.add_surface(id, surface, slot_materials.clone(), emission);
+    for (surface, piece) in surfaces {
+        parts.add_surface(id, piece, surface, slot_materials.clone(), emission);
     }
     Ok(())
 }
@@ -169,6 +175,10 @@ fn add_vessel(
     material: u32,
     parts: &mut Parts,
 ) -> Result<(), SceneError> {
+    if object.emission.is_some() {
+        let error = SceneError::at(&object.source, format!("object '{}': a vessel can't shine", object.name));
+        return Err(error.with_remedy("put a lamp of its own into it"));
+    }
     let built = shapes::vessel(object, vessel)?;
     let glass = library.media.find(&vessel.medium)?;
     let glass_priority = library.description.media[glass].priority;
@@ -176,19 +186,19 @@ fn add_vessel(
         vessel.fill.iter().map(|l| library.media.find(&l.medium)).collect::<Result<_, _>>()?;
     // Glass must win in the overlap, and the liquids must rank alike, or the layers would eat into each other.
     let lowest = fill.iter().map(|&medium| library.description.media[medium].priority).min();
-    let liquid_priority = lowest.map_or(glass_priority, |p| p.min(glass_priority - 1));
+    let liquid_priority = lowest.map_or(glass_priority, |p| p.min(glass_priority.saturating_sub(1)));
     for (layer, (&medium, primitives)) in fill.iter().zip(built.liquids).enumerate().rev() {
         let boundary = BoundaryKind::Solid { medium: MediumId(medium as u32 + 1), priority: liquid_priority };
         let name = format!("{}: {}", object.name, vessel.fill[layer].medium.value);
         let id = parts.add_object(name, boundary, material);
         for primitive in primitives {
-            parts.add_surface(id, Surface::Shape(primitive), Vec::new(), None);
+            parts.add_surface(id, 0, Surface::Shape(primitive), Vec::new(), None);
         }
     }
     let boundary = BoundaryKind::Solid { medium: MediumId(glass as u32 + 1), priority: glass_priority };
     let id = parts.add_object(object.name.clone(), boundary, material);
     for primitive in built.glass {
-        parts.add_surface(id, Surface::Shape(primitive), Vec::new(), None);
+        parts.add_surface(id, 0, Surface::Shape(primitive), Vec::new(), None);
     }
     Ok(())
 }

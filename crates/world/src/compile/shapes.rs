@@ -162,7 +162,7 @@ fn build(
     Ok(Arc::new(MeshBvh::new(mesh)))
 }
 
-/// The surfaces of a shape.
+/// The surfaces of a shape, each with the number of the part of a compound that it belongs to.
 ///
 /// - `shape`: no vessel, no instance.
 /// - `placement`: object space to world.
@@ -170,6 +170,27 @@ fn build(
 /// # Errors
 /// Numbers out of range, profiles that cross themselves, meshes that can't be.
 pub(super) fn compile(
+    object: &Located<ObjectDescription>,
+    shape: &ShapeDescription,
+    placement: &Transform,
+    meshes: &mut Meshes,
+    notes: &mut Vec<Note>,
+) -> Result<Vec<(Surface, u32)>, SceneError> {
+    let ShapeDescription::Compound { parts } = shape else {
+        let surfaces = compile_one(object, shape, placement, meshes, notes)?;
+        return Ok(surfaces.into_iter().map(|surface| (surface, 0)).collect());
+    };
+    let mut surfaces: Vec<(Surface, u32)> = Vec::new();
+    for ShapePart { shape, placement: inner } in parts {
+        let next = surfaces.last().map_or(0, |(_, piece)| piece + 1);
+        let part = compile(object, shape, &placement.after(inner), meshes, notes)?;
+        surfaces.extend(part.into_iter().map(|(surface, piece)| (surface, next + piece)));
+    }
+    Ok(surfaces)
+}
+
+/// The surfaces of a shape that is no compound.
+fn compile_one(
     object: &Located<ObjectDescription>,
     shape: &ShapeDescription,
     placement: &Transform,
@@ -183,13 +204,6 @@ pub(super) fn compile(
         ShapeDescription::Generated { form, triangles } => {
             let data = moved(generated(*form, *triangles as usize), placement);
             Ok(vec![Surface::Mesh { mesh: build(object, data, false, notes)?, transform: None }])
-        }
-        ShapeDescription::Compound { parts } => {
-            let mut surfaces = Vec::new();
-            for ShapePart { shape, placement: inner } in parts {
-                surfaces.extend(compile(object, shape, &placement.after(inner), meshes, notes)?);
-            }
-            Ok(surfaces)
         }
         ShapeDescription::Vessel(_) | ShapeDescription::Instance { .. } => {
             let message = format!("object '{}': a compound can't hold a vessel or an instance", object.name);

@@ -22,6 +22,8 @@ pub struct ShapeLight {
     /// similarity stretches some places more than others.
     density: Mat3,
     method: Method,
+    /// Largest coordinate of any of its points: what the rounding of its description goes by.
+    reach: f32,
 }
 
 /// How directions to the light are chosen.
@@ -37,7 +39,9 @@ impl ShapeLight {
     pub fn new(primitive: Primitive, radiance: Spectrum, sides: ShiningSides) -> Self {
         let area = primitive.area() as f32;
         let (density, method) = (density_of(&primitive), method_for(&primitive));
-        Self { primitive, emission: SurfaceEmission { radiance, sides }, area, density, method }
+        let bounds = primitive.bounds();
+        let reach = bounds.min.abs().max(bounds.max.abs()).max_element();
+        Self { primitive, emission: SurfaceEmission { radiance, sides }, area, density, method, reach }
     }
 
     pub(super) fn sample_direct(&self, p: Vec3, u: Vec2) -> Option<DirectSample> {
@@ -98,7 +102,7 @@ impl ShapeLight {
         let sample = sphere.sample(p.as_dvec3(), u.as_dvec2());
         let distance = sample.q.distance(p.as_dvec3()) as f32;
         let n = if self.primitive.flipped { -sample.n } else { sample.n };
-        let target = rounded_point(sample.q, n.as_vec3());
+        let target = rounded_point(sample.q, n.as_vec3(), self.reach);
         self.emission.direct(sample.wi.as_vec3(), distance, target, sample.pdf_w as f32)
     }
 
@@ -106,16 +110,15 @@ impl ShapeLight {
         let q = view.sample(u);
         let to_light = q - p;
         let wi = to_light.try_normalize()?;
-        let target = rounded_point(q.as_dvec3(), n);
+        let target = rounded_point(q.as_dvec3(), n, self.reach);
         self.emission.direct(wi, to_light.length(), target, 1.0 / view.solid_angle())
     }
 }
 
 /// A point of the surface, known in `f64`, and the error of its `f32` image: its own rounding and that of the surface's
 /// description.
-fn rounded_point(q: DVec3, n: Vec3) -> LightPoint {
-    let p = q.as_vec3();
-    LightPoint { p, p_error: gamma(4) * p.abs().max_element(), n }
+fn rounded_point(q: DVec3, n: Vec3, reach: f32) -> LightPoint {
+    LightPoint { p: q.as_vec3(), p_error: gamma(8) * reach, n }
 }
 
 /// The map from a world normal to its object normal, scaled so that its length is the density by world area of a

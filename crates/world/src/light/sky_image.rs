@@ -59,7 +59,8 @@ impl SkyImage {
         const INV_PI: f32 = std::f32::consts::FRAC_1_PI;
         let longitude = float::atan2(direction.x, -direction.z);
         // Unlike the arc cosine, atan2 is precise at the zenith.
-        let polar_angle = float::atan2(direction.x.hypot(direction.z), direction.y);
+        let polar_angle =
+            float::atan2((direction.x * direction.x + direction.z * direction.z).sqrt(), direction.y);
         let uv = Vec2::new(0.5 + 0.5 * INV_PI * longitude, INV_PI * polar_angle);
         uv * Vec2::new(self.width as f32, self.height as f32)
     }
