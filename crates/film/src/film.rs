@@ -30,7 +30,12 @@ impl Film {
     /// As `FilmHeader::check`.
     pub fn new(header: FilmHeader) -> Result<Self, FilmError> {
         header.check()?;
-        let pixels = vec![PixelSums::default(); header.crop.area()];
+        let count = header.crop.area();
+        let mut pixels = Vec::new();
+        if pixels.try_reserve_exact(count).is_err() {
+            return Err(FilmError::Frame("there is not enough memory for a picture of this size"));
+        }
+        pixels.resize(count, PixelSums::default());
         Ok(Self { header, passes: PassSet::new(), nonfinite: 0, pixels })
     }
 

@@ -11,7 +11,7 @@ use std::time::Duration;
 ///
 /// Without a scene it renders the built-in one, a glass of water.
 #[derive(Debug, Parser)]
-#[command(name = "hyaline", version, args_conflicts_with_subcommands = true)]
+#[command(name = "hyaline", version, args_conflicts_with_subcommands = true, allow_negative_numbers = true)]
 pub(crate) struct Cli {
     /// What to do; rendering where no word is given.
     #[command(subcommand)]

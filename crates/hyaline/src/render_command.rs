@@ -113,11 +113,22 @@ fn render(
     outcome
 }
 
+/// Rays among which one that loses track of its medium is rounding's doing: at an edge two faces swap.
+const RAYS_PER_ROUNDING: u64 = 1_000_000;
+
 /// Warns of what should not have happened while rendering.
 fn tell_faults(outcome: &Outcome, world: &World, warnings: &mut Warnings) {
     for (&object, count) in &outcome.stats.never_entered {
         let name = world.object_names.get(object as usize).map_or("without a name", String::as_str);
-        warnings.tell(format!("boundary left that was never entered: object {name}, {count} times"));
+        let rays = outcome.stats.rays;
+        let cause = if count.saturating_mul(RAYS_PER_ROUNDING) < rays {
+            "rounding at an edge, harmless"
+        } else {
+            "is it closed, and the camera in the medium it seems to be in?"
+        };
+        warnings.tell(format!(
+            "boundary left that was never entered: object {name}, {count} of {rays} rays; {cause}"
+        ));
     }
     match outcome.film.nonfinite() {
         0 => {}
@@ -193,14 +204,17 @@ impl Files {
         }
     }
 
-    /// Writes film and pictures; nothing where there is no pass to show.
+    /// Writes film and pictures; nothing where there is no pass to show. A file that can't be written keeps none of
+    /// the others from being written.
     fn write(&self, film: &Film, exposure: f32) -> Result<(), Failure> {
         if film.passes().is_empty() {
             return Ok(());
         }
-        self.write_film(film)?;
+        let film_written = self.write_film(film);
         let image = picture::develop(film)?;
-        self.pictures.iter().try_for_each(|output| picture::write(&image, &output.path, exposure))
+        let write = |output: &Output| picture::write(&image, &output.path, exposure);
+        let pictures_written: Vec<Result<(), Failure>> = self.pictures.iter().map(write).collect();
+        std::iter::once(film_written).chain(pictures_written).collect()
     }
 
     /// Says where the files are, and after the built-in scene what to try next.

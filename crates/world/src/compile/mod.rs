@@ -22,7 +22,7 @@ use crate::light::LightSet;
 use crate::texture::Texture;
 use hyaline_geometry::Aggregate;
 use hyaline_scattering::{Boundaries, Medium, MediumId};
-use hyaline_scene::{Located, Note, SceneDescription, SceneError};
+use hyaline_scene::{Located, Note, SceneDescription, SceneError, Severity};
 use hyaline_spectrum::Spectrum;
 use names::Names;
 
@@ -112,6 +112,11 @@ impl World {
             has_permeable,
             lanes: RGB_LANES,
         };
+        if world.lights.lights().is_empty() {
+            let message =
+                "the scene has no light: the picture will be black, but for an ambient term in `whitted`";
+            notes.push(Note { severity: Severity::Warning, source: None, message: message.into() });
+        }
         cameras::compile_all(&library, &mut world, &mut notes)?;
         Ok((world, notes))
     }

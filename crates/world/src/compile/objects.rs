@@ -99,7 +99,7 @@ fn compile(
     let material = library.materials.find(&object.material)? as u32;
     let shape = shapes::resolve_instance(library, object)?;
     if let ShapeDescription::Vessel(vessel) = shape {
-        return add_vessel(library, object, vessel, material, parts);
+        return add_vessel(library, object, vessel, material, parts, notes);
     }
     let boundary = boundary(library, &object.boundary)?;
     let surfaces = shapes::compile(object, shape, &object.placement, meshes, notes)?;
@@ -109,6 +109,13 @@ fn compile(
         Radiating::new(emission, area)
     });
     warn_without_media(object, &materials[material as usize], &boundary, notes);
+    if matches!(boundary, BoundaryKind::Solid { .. }) && shapes::is_open(shape) {
+        let message = format!(
+            "object '{}' is a body of a medium, but its shape is open: paths lose track of where they are; close it, or make it an `interface`",
+            object.name
+        );
+        notes.push(Note::warning(&object.source, message));
+    }
     let id = parts.add_object(object.name.clone(), boundary, material);
     for (surface, piece) in surfaces {
         parts.add_surface(id, piece, surface, slot_materials.clone(), emission);
@@ -174,6 +181,7 @@ fn add_vessel(
     vessel: &VesselDescription,
     material: u32,
     parts: &mut Parts,
+    notes: &mut Vec<Note>,
 ) -> Result<(), SceneError> {
     if object.emission.is_some() {
         let error = SceneError::at(&object.source, format!("object '{}': a vessel can't shine", object.name));
@@ -187,6 +195,13 @@ fn add_vessel(
     // Glass must win in the overlap, and the liquids must rank alike, or the layers would eat into each other.
     let lowest = fill.iter().map(|&medium| library.description.media[medium].priority).min();
     let liquid_priority = lowest.map_or(glass_priority, |p| p.min(glass_priority.saturating_sub(1)));
+    if fill.iter().any(|&medium| library.description.media[medium].priority >= glass_priority.max(1)) {
+        let message = format!(
+            "object '{}': a liquid has the priority of the glass or a higher one; the glass wins all the same",
+            object.name
+        );
+        notes.push(Note::warning(&object.source, message));
+    }
     for (layer, (&medium, primitives)) in fill.iter().zip(built.liquids).enumerate().rev() {
         let boundary = BoundaryKind::Solid { medium: MediumId(medium as u32 + 1), priority: liquid_priority };
         let name = format!("{}: {}", object.name, vessel.fill[layer].medium.value);

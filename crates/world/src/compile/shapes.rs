@@ -13,6 +13,7 @@ use hyaline_scene::{
     SceneError, ShapeDescription, ShapePart, VesselDescription, VesselProfile,
 };
 use std::collections::HashMap;
+use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
 
 /// Instances that refer to instances, at most.
@@ -263,6 +264,24 @@ fn primitives(shape: &ShapeDescription) -> Result<Vec<Primitive>, ShapeError> {
         | ShapeDescription::Compound { .. }
         | ShapeDescription::Instance { .. }
         | ShapeDescription::Vessel(_) => Ok(Vec::new()),
+    }
+}
+
+/// Whether a shape that is no mesh surely has no inside.
+pub(super) fn is_open(shape: &ShapeDescription) -> bool {
+    let is_part = |range: &[f64; 2], whole: f64| range[1] - range[0] < whole * (1.0 - 1e-9);
+    match shape {
+        ShapeDescription::Disc { .. } | ShapeDescription::Rectangle { .. } => true,
+        ShapeDescription::Sphere { phi, theta, .. } => is_part(phi, TAU) || is_part(theta, PI),
+        ShapeDescription::Torus { phi, theta, .. } => is_part(phi, TAU) || is_part(theta, TAU),
+        ShapeDescription::Cylinder { capped, .. } | ShapeDescription::Cone { capped, .. } => !capped,
+        ShapeDescription::Box { .. }
+        | ShapeDescription::Mesh { .. }
+        | ShapeDescription::Generated { .. }
+        | ShapeDescription::Revolution { .. }
+        | ShapeDescription::Compound { .. }
+        | ShapeDescription::Instance { .. }
+        | ShapeDescription::Vessel(_) => false,
     }
 }
 
