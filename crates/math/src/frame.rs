@@ -26,16 +26,6 @@ impl Frame {
         Self { s, t, n }
     }
 
-    /// A frame about the unit vector `n` whose first tangent is as near to `tangent` as it can be; where `tangent`
-    /// is degenerate the tangents are free.
-    pub fn from_normal_and_tangent(n: Vec3, tangent: Vec3) -> Self {
-        let s = tangent - n * n.dot(tangent);
-        match s.try_normalize() {
-            Some(s) => Self { s, t: n.cross(s), n },
-            None => Self::from_normal(n),
-        }
-    }
-
     /// World vector to local coordinates.
     pub fn to_local(&self, v: Vec3) -> Vec3 {
         Vec3::new(v.dot(self.s), v.dot(self.t), v.dot(self.n))

@@ -4,11 +4,9 @@
 
 mod dielectric;
 mod metal;
-mod mitsuba;
 
 pub use dielectric::{index_by_name, index_names};
 pub use metal::{Conductor, LANE_WAVELENGTHS, conductor_by_name, conductor_names};
-pub use mitsuba::{mitsuba_index_by_name, mitsuba_index_names};
 
 use hyaline_optics::{IndexModel, dispersion::LAMBDA_D};
 

@@ -1,6 +1,7 @@
 //! What an integrator is: something that prepares, and then renders numbered passes that know nothing of each other.
 
 mod path;
+mod per_pixel;
 mod whitted;
 
 pub use path::{PathIntegrator, radiance};

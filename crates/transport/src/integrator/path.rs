@@ -6,13 +6,14 @@
 //! 4. Go on in a direction drawn from the BSDF. Singular crossings are free: there is no limit on them.
 //! 5. Weak paths end by roulette on their throughput without the n² factor, so none dies for being inside glass.
 
-use super::{Integrator, Pass, Prepared, RenderSettings, View};
+use super::per_pixel::PerPixel;
+use super::{Integrator, Prepared, RenderSettings, View};
 use crate::direct::{self, DirectLight};
 use crate::first_hit;
 use crate::stats::Stats;
 use crate::walk::{self, Event, Vertex};
-use hyaline_film::{PixelSample, Rect};
-use hyaline_math::{Ray, Vec2, Vec3, offset_origin};
+use hyaline_film::PixelSample;
+use hyaline_math::{Ray, Vec3, offset_origin};
 use hyaline_sampling::{Sampler, mis};
 use hyaline_scattering::{MediumSet, Transport};
 use hyaline_spectrum::Spectrum;
@@ -49,41 +50,7 @@ impl Integrator for PathIntegrator {
         _cancel: &AtomicBool,
         _stats: &mut Stats,
     ) -> Box<dyn Prepared + 'w> {
-        Box::new(PreparedPath { world, view: *view, settings: *settings })
-    }
-}
-
-struct PreparedPath<'w> {
-    world: &'w World,
-    view: View,
-    settings: RenderSettings,
-}
-
-impl Prepared for PreparedPath<'_> {
-    fn begin_pass<'a>(&'a self, pass: u32, _stats: &mut Stats) -> Box<dyn Pass + 'a> {
-        Box::new(PathPass { prepared: self, pass })
-    }
-}
-
-struct PathPass<'a> {
-    prepared: &'a PreparedPath<'a>,
-    pass: u32,
-}
-
-impl Pass for PathPass<'_> {
-    fn render_tile(&self, tile: Rect, samples: &mut [PixelSample], stats: &mut Stats) {
-        let PreparedPath { world, view, settings } = self.prepared;
-        for ((x, y), sample) in tile.pixels().zip(samples) {
-            let mut sampler = Sampler::new(settings.sampler, settings.seed, (x, y), self.pass);
-            let film = Vec2::new(x as f32 + 0.5, y as f32 + 0.5) + view.filter.sample(sampler.next_2d());
-            let lens = sampler.next_2d();
-            *sample = PixelSample::default();
-            if let Some(ray) = world.cameras[view.camera].ray(film, lens) {
-                let start = world.camera_media[view.camera].clone();
-                let radiance = radiance(world, settings, ray, start, &mut sampler, stats, Some(sample));
-                sample.beauty = radiance.to_rgb();
-            }
-        }
+        Box::new(PerPixel { world, view: *view, settings: *settings, estimate: radiance })
     }
 }
 

@@ -8,13 +8,14 @@
 //!
 //! Source: Whitted, CACM 23(6), 1980; Suffern, Ray Tracing from the Ground Up, ch. 24-28.
 
-use super::{Integrator, Pass, Prepared, RenderSettings, View};
+use super::per_pixel::PerPixel;
+use super::{Integrator, Prepared, RenderSettings, View};
 use crate::direct::{self, DirectLight};
 use crate::first_hit;
 use crate::stats::Stats;
 use crate::walk::{self, Event, Vertex};
-use hyaline_film::{PixelSample, Rect};
-use hyaline_math::{Ray, Vec2, Vec3, offset_origin};
+use hyaline_film::PixelSample;
+use hyaline_math::{Ray, Vec3, offset_origin};
 use hyaline_sampling::Sampler;
 use hyaline_scattering::{MediumSet, Transport};
 use hyaline_spectrum::Spectrum;
@@ -43,43 +44,22 @@ impl Integrator for WhittedIntegrator {
         _cancel: &AtomicBool,
         _stats: &mut Stats,
     ) -> Box<dyn Prepared + 'w> {
-        Box::new(PreparedWhitted { world, view: *view, settings: *settings })
+        Box::new(PerPixel { world, view: *view, settings: *settings, estimate: radiance })
     }
 }
 
-struct PreparedWhitted<'w> {
-    world: &'w World,
-    view: View,
-    settings: RenderSettings,
-}
-
-impl Prepared for PreparedWhitted<'_> {
-    fn begin_pass<'a>(&'a self, pass: u32, _stats: &mut Stats) -> Box<dyn Pass + 'a> {
-        Box::new(WhittedPass { prepared: self, pass })
-    }
-}
-
-struct WhittedPass<'a> {
-    prepared: &'a PreparedWhitted<'a>,
-    pass: u32,
-}
-
-impl Pass for WhittedPass<'_> {
-    fn render_tile(&self, tile: Rect, samples: &mut [PixelSample], stats: &mut Stats) {
-        let PreparedWhitted { world, view, settings } = self.prepared;
-        for ((x, y), sample) in tile.pixels().zip(samples) {
-            let mut sampler = Sampler::new(settings.sampler, settings.seed, (x, y), self.pass);
-            let film = Vec2::new(x as f32 + 0.5, y as f32 + 0.5) + view.filter.sample(sampler.next_2d());
-            let lens = sampler.next_2d();
-            *sample = PixelSample::default();
-            if let Some(ray) = world.cameras[view.camera].ray(film, lens) {
-                let mut tracer = Tracer { world, settings, stats, first: Some(sample) };
-                let branch = Branch { weight: 1.0, depth: 0, visible: mask::CAMERA };
-                let radiance = tracer.trace(ray, world.camera_media[view.camera].clone(), branch, sampler);
-                sample.beauty = radiance.to_rgb();
-            }
-        }
-    }
+/// The radiance that arrives along a camera ray, both branches at every transparent surface followed.
+fn radiance(
+    world: &World,
+    settings: &RenderSettings,
+    ray: Ray,
+    set: MediumSet,
+    sampler: &mut Sampler,
+    stats: &mut Stats,
+    first: Option<&mut PixelSample>,
+) -> Spectrum {
+    let branch = Branch { weight: 1.0, depth: 0, visible: mask::CAMERA };
+    Tracer { world, settings, stats, first }.trace(ray, set, branch, *sampler)
 }
 
 /// How far a branch has come.
