@@ -119,17 +119,12 @@ impl World {
         if self.items[hit.item as usize].light.is_some() {
             return None;
         }
-        match encounter.crossing {
-            Some(Crossing::Hidden) => Some(Spectrum::ONE),
-            crossing => {
-                let is_matched = match crossing {
-                    Some(Crossing::Boundary { from, to, .. }) => self.ior(from) == self.ior(to),
-                    _ => false,
-                };
-                let material = &self.materials[self.material_of(hit, encounter) as usize];
-                material.straight_through(&self.textures, hit.uv, is_matched)
-            }
+        if encounter.crossing == Some(Crossing::Hidden) {
+            return Some(Spectrum::ONE);
         }
+        let is_matched = encounter.crossing.is_some_and(|crossing| crossing.is_index_matched(&self.media));
+        let material = &self.materials[self.material_of(hit, encounter) as usize];
+        material.straight_through(&self.textures, hit.uv, is_matched)
     }
 
     /// How the surface scatters light that comes along `ray` through the medium `within`.
