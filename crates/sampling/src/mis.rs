@@ -1,23 +1,13 @@
 //! Weights that combine several ways to sample the same thing: multiple importance sampling.
 
-/// Weight of a sample drawn with density `pdf_a` that the other strategy would have drawn with `pdf_b`.
+/// Weight of a sample drawn with density `pdf_a` that the other strategy would have drawn with `pdf_b`: lower in
+/// variance than the balance heuristic where one strategy is far better than the other.
 ///
 /// - `pdf_a`, `pdf_b`: ≥ 0, in the same measure, times the number of samples taken; infinity is allowed and wins.
 ///
-/// Returns 0…1; 0 where `pdf_a` is 0; the weights of both strategies add up to 1.
-/// Source: Veach, Robust Monte Carlo methods for light transport simulation, 1997, eq. 9.8.
-#[inline]
-pub fn balance(pdf_a: f32, pdf_b: f32) -> f32 {
-    match ratio(pdf_a, pdf_b) {
-        Some(ratio) => 1.0 / (1.0 + ratio),
-        None => 0.0,
-    }
-}
-
-/// As `balance`, but with squared densities: lower variance where one strategy is far better than the other.
-///
-/// Squares of densities never occur, so that nothing overflows.
-/// Source: Veach 1997, §9.2.3, the power heuristic with β = 2.
+/// Returns 0…1; 0 where `pdf_a` is 0; the weights of both strategies add up to 1. Squares of densities never occur, so
+/// that nothing overflows.
+/// Source: Veach, Robust Monte Carlo methods for light transport simulation, 1997, §9.2.3, the power heuristic, β = 2.
 #[inline]
 pub fn power(pdf_a: f32, pdf_b: f32) -> f32 {
     match ratio(pdf_a, pdf_b) {
@@ -46,18 +36,15 @@ mod tests {
     fn weights_of_both_strategies_add_up_to_one() {
         for a in DENSITIES {
             for b in DENSITIES {
-                for weight in [balance, power] {
-                    let sum = weight(a, b) + weight(b, a);
-                    let possible = a > 0.0 || b > 0.0;
-                    assert!((sum - f32::from(u8::from(possible))).abs() < 1e-6, "{a}, {b}: {sum}");
-                }
+                let sum = power(a, b) + power(b, a);
+                let possible = a > 0.0 || b > 0.0;
+                assert!((sum - f32::from(u8::from(possible))).abs() < 1e-6, "{a}, {b}: {sum}");
             }
         }
     }
 
     #[test]
     fn weights_are_veachs() {
-        assert!((balance(1.0, 3.0) - 0.25).abs() < 1e-7);
         assert!((power(1.0, 3.0) - 0.1).abs() < 1e-7);
     }
 

@@ -13,6 +13,7 @@ use hyaline_scene::*;
 use hyaline_spectrum::Spectrum;
 use hyaline_testkit::{Moments, welch_t};
 use hyaline_transport::Stats;
+use hyaline_transport::direct::sky_radiance;
 use hyaline_transport::walk::{self, Event};
 use hyaline_world::{World, mask};
 use scene_kit::*;
@@ -32,7 +33,7 @@ fn brute_sample(world: &World, mut ray: Ray, index: u32) -> f64 {
     for _ in 0..LONGEST {
         let vertex = match walk::advance(world, &ray, mask::PATH, &mut set, &mut stats) {
             Event::Sky { transmittance } => {
-                result += throughput * transmittance * world.lights.radiance_of_sky(ray.direction);
+                result += throughput * transmittance * sky_radiance(world, &ray, None, mask::PATH);
                 break;
             }
             Event::Surface(vertex) => vertex,

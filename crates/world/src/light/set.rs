@@ -1,9 +1,7 @@
 //! All lights of a scene, and the choice among them.
 
 use super::Light;
-use hyaline_math::Vec3;
 use hyaline_sampling::Distribution1d;
-use hyaline_spectrum::Spectrum;
 
 /// Share of the choices for direct light that go to all lights alike.
 ///
@@ -64,15 +62,6 @@ impl LightSet {
     pub fn emission(&self) -> &LightSampler {
         &self.emission
     }
-
-    /// Radiance of all surroundings.
-    ///
-    /// - `direction`: unit, the way one looks.
-    pub fn radiance_of_sky(&self, direction: Vec3) -> Spectrum {
-        self.environments
-            .iter()
-            .fold(Spectrum::ZERO, |sum, &index| sum + self.lights[index as usize].radiance_of_sky(direction))
-    }
 }
 
 /// A light that was chosen.
@@ -128,6 +117,8 @@ impl LightSampler {
 mod tests {
     use super::*;
     use crate::light::{EnvironmentLight, PointLight, SceneSphere};
+    use hyaline_math::Vec3;
+    use hyaline_spectrum::Spectrum;
     use hyaline_testkit::{Random, chi_square};
 
     #[test]
@@ -172,18 +163,17 @@ mod tests {
         for set in [LightSet::new(Vec::new(), 3), LightSet::default()] {
             assert_eq!(set.direct().sample(0.5), None);
             assert_eq!(set.emission().probability(0), 0.0);
-            assert!(set.radiance_of_sky(Vec3::Y).is_zero());
+            assert!(set.environments().is_empty());
         }
         assert_eq!(LightSampler::new(&[0.0, 0.0], 0.5).sample(0.3), None);
         assert_eq!(LightSampler::new(&[f32::INFINITY], 0.5).sample(0.3).unwrap().probability, 1.0);
     }
 
     #[test]
-    fn the_sky_is_the_sum_of_all_surroundings() {
+    fn all_surroundings_are_found() {
         let scene = SceneSphere { center: Vec3::ZERO, radius: 1.0 };
         let sky = |l: f32| Light::Environment(EnvironmentLight::from_constant(Spectrum::splat(l), scene));
         let set = LightSet::new(vec![sky(1.0), sky(2.0)], 3);
         assert_eq!(set.environments(), [0, 1]);
-        assert_eq!(set.radiance_of_sky(Vec3::X), Spectrum::splat(3.0));
     }
 }
