@@ -71,7 +71,7 @@ mod tests {
     use super::*;
     use crate::cli::Cli;
     use clap::Parser;
-    use hyaline_scene::{Absorption, IndexDescription, Located, MediumDescription, Source};
+    use hyaline_scene::{IndexDescription, Located, MediumDescription, Source};
 
     fn header(words: &str, mut scene: SceneDescription) -> FilmHeader {
         let words = std::iter::once("hyaline").chain(words.split_whitespace());
@@ -109,11 +109,8 @@ mod tests {
     #[test]
     fn the_content_of_the_scene_counts_and_its_places_do_not() {
         let medium = |priority: i32| MediumDescription {
-            name: "glass".into(),
-            index: IndexDescription::Constant(1.5),
-            absorption: Absorption::None,
-            scattering: None,
             priority,
+            ..MediumDescription::clear("glass", IndexDescription::Constant(1.5))
         };
         let scene = |priority: i32, file: &str| SceneDescription {
             media: vec![Located::new(medium(priority), Source::file(file))],

@@ -86,7 +86,13 @@ fn medium(medium: &MediumDescription) -> String {
         Absorption::ColorAt { color, distance } => format!("color {color:?} at {distance}"),
     };
     let scattering = match &medium.scattering {
-        Some(scattering) => format!(", scatters {:?} per unit with g {}", scattering.sigma_s, scattering.g),
+        Some(scattering) => {
+            format!(
+                ", scatters {:?} per unit with mean cosine {}",
+                scattering.sigma_s,
+                scattering.phase.mean_cosine()
+            )
+        }
         None => String::new(),
     };
     format!("medium     '{}': {index}, {absorption}{scattering}, priority {}", medium.name, medium.priority)
@@ -105,6 +111,10 @@ fn material(material: &MaterialDescription) -> String {
         }
         MaterialKind::Dielectric { .. } => "dielectric".to_owned(),
         MaterialKind::ThinDielectric { ior, .. } => format!("thin dielectric, index {ior}"),
+        MaterialKind::Plastic { ior, .. } => format!("plastic, index {ior}"),
+        MaterialKind::Blend { first, second, .. } => {
+            format!("blend of '{}' and '{}'", first.value, second.value)
+        }
         MaterialKind::PassThrough => "pass-through".to_owned(),
         MaterialKind::Black => "black".to_owned(),
     };
@@ -196,6 +206,9 @@ fn light(light: &LightDescription) -> String {
             point(*position),
             outer_angle.to_degrees()
         ),
+        LightKind::Projector { placement, fov, .. } => {
+            format!("projector at {}, {:.1} degrees across", point(placement.translation()), fov.to_degrees())
+        }
         LightKind::Directional { direction, irradiance } => {
             format!("directional along {}, {irradiance:?} W/m2", point(*direction))
         }

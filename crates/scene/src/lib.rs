@@ -16,15 +16,20 @@ pub mod texture;
 pub use camera::{CameraDescription, FovAxis, Projection};
 pub use error::{Located, Note, SceneError, Severity, Source};
 pub use light::{LightDescription, LightKind, SpotFalloff};
-pub use material::{ColorSource, MaterialDescription, MaterialKind, Metal, ScalarSource};
-pub use medium::{Absorption, IndexDescription, MediumDescription, Scattering};
+pub use material::{ColorSource, MaterialDescription, MaterialKind, Metal, Relief, ScalarSource};
+pub use medium::{
+    Absorption, DensityGrid, GridData, IndexDescription, MediumDescription, PhaseDescription, Scattering,
+};
 pub use mesh::MeshData;
 pub use object::{
     BoundaryDescription, Emission, EmissionQuantity, FillLayer, GeneratedForm, ObjectDescription,
     ProfileCurve, RimKind, ShapeDescription, ShapePart, VesselDescription, VesselProfile,
 };
-pub use settings::{FileIntegrator, FilmDescription, PixelFilter, SamplerKind, Settings};
-pub use texture::{ImageData, TextureDescription, TextureKind};
+pub use settings::{
+    Collection, DebugView, FileIntegrator, FilmDescription, NearestPhotons, PhotonKernel, PhotonMapSettings,
+    PixelFilter, ProjectionMaps, SamplerKind, Settings,
+};
+pub use texture::{ImageData, TextureDescription, TextureFilter, TextureKind, Wrap};
 
 use serde::Serialize;
 

@@ -40,6 +40,17 @@ pub enum LightKind {
         /// How the intensity falls from `inner_angle` to `outer_angle`.
         falloff: SpotFalloff,
     },
+    /// An image thrown from a point, as by a slide projector.
+    Projector {
+        /// Projector space to world: it looks along local -z, y is up, x to the right of the image. No scaling.
+        placement: hyaline_math::Transform,
+        /// Full angle across the image's width, radians, 0…π.
+        fov: f64,
+        /// The image, by texture name; `None` is white all over, square.
+        image: Option<Located<String>>,
+        /// Irradiance of a white pixel on a plane across the axis at distance 1, where the axis meets it, W/m².
+        irradiance: Rgb,
+    },
     /// Parallel light from infinitely far.
     Directional {
         /// Direction the light travels in, any length.

@@ -12,6 +12,54 @@ pub struct MaterialDescription {
     pub kind: MaterialKind,
     /// Whether an opaque finish works from both sides; if not, the back is black.
     pub two_sided: bool,
+    /// Material of the back of an opaque finish, by name; `None` leaves it to `two_sided`.
+    pub back: Option<Located<String>>,
+    /// Share of the surface that is there, 0…1; through the rest light goes straight, as through holes.
+    pub opacity: ScalarSource,
+    /// Small-scale form that turns the shading normal.
+    pub relief: Option<Relief>,
+    /// The architect's glass: shadow rays pass a transparent finish straight, dimmed by Fresnel's equations and the
+    /// media; light straight through it then comes from shadow rays only. Biased; off by default.
+    pub straight_shadows: bool,
+}
+
+impl MaterialDescription {
+    /// A material of this kind without relief, holes or a back of its own.
+    pub fn new(name: impl Into<String>, kind: MaterialKind) -> Self {
+        Self {
+            name: name.into(),
+            kind,
+            two_sided: true,
+            back: None,
+            opacity: ScalarSource::Constant(1.0),
+            relief: None,
+            straight_shadows: false,
+        }
+    }
+}
+
+/// Small-scale form that turns the shading normal and nothing else.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub enum Relief {
+    /// Heights above the surface.
+    Bump {
+        /// Texture whose luminance is the height.
+        height: Located<String>,
+        /// Factor on the heights, scene units.
+        scale: f32,
+    },
+    /// Normals in the frame of the surface's parameters: 0…1 in the texture are -1…1 along u, v and outward.
+    Normals {
+        /// The texture, read as plain numbers.
+        texture: Located<String>,
+    },
+    /// Slopes of the surface along u and v in the first two channels: the normal is (-s_u, -s_v, 1), normalized.
+    Slopes {
+        /// The texture, read as plain numbers.
+        texture: Located<String>,
+        /// Factor on the slopes.
+        scale: f32,
+    },
 }
 
 /// The kinds of finish.
@@ -74,6 +122,28 @@ pub enum MaterialKind {
         ior: f32,
         /// Factor on the transmitted light, 0…1.
         tint: ColorSource,
+    },
+    /// A matte base under a clear coat, smooth or rough (GGX): plastic, varnish, glazed clay.
+    Plastic {
+        /// Reflectance of the base, 0…1.
+        diffuse: ColorSource,
+        /// Factor on the light that the coat reflects, 0…1; 1 is physical.
+        specular: ColorSource,
+        /// Index of the coat relative to its surroundings, > 0.
+        ior: f32,
+        /// Roughness of the coat, 0…1; 0 is polished.
+        roughness: ScalarSource,
+        /// Whether light that the base sends back and forth below the coat takes its color each time.
+        nonlinear: bool,
+    },
+    /// Part one finish, part another, mixed too finely to see.
+    Blend {
+        /// Name of the first material.
+        first: Located<String>,
+        /// Name of the second.
+        second: Located<String>,
+        /// Share of the second, 0…1.
+        weight: ScalarSource,
     },
     /// Nothing: light goes straight through. Bounds a medium without refraction where indices agree.
     PassThrough,

@@ -55,6 +55,10 @@ pub struct Emission {
     pub two_sided: bool,
     /// Whether camera rays see it.
     pub visible_to_camera: bool,
+    /// Factor on the radiance that varies over the surface, by texture name.
+    pub texture: Option<Located<String>>,
+    /// Medium that the light declares to shine into; used where looking around does not tell.
+    pub medium: Option<Located<String>>,
 }
 
 /// What an emission's color measures.

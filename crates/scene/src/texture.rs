@@ -13,6 +13,45 @@ pub struct TextureDescription {
     pub kind: TextureKind,
     /// (u, v) of the surface to (u, v) of the texture: rows of a 2 x 3 matrix.
     pub uv_transform: [[f32; 3]; 2],
+    /// What lies beyond the edges of an image.
+    pub wrap: Wrap,
+    /// How an image is read between the centers of its pixels.
+    pub filter: TextureFilter,
+}
+
+impl TextureDescription {
+    /// A texture laid out as the surface's own coordinates are, repeated.
+    pub fn new(name: impl Into<String>, kind: TextureKind) -> Self {
+        Self {
+            name: name.into(),
+            kind,
+            uv_transform: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]],
+            wrap: Wrap::default(),
+            filter: TextureFilter::default(),
+        }
+    }
+}
+
+/// What lies beyond the edges of an image.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+pub enum Wrap {
+    /// The image again.
+    #[default]
+    Repeat,
+    /// The image mirrored.
+    Mirror,
+    /// Its outermost pixels.
+    Clamp,
+}
+
+/// How an image is read between the centers of its pixels.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+pub enum TextureFilter {
+    /// Between the four nearest pixels.
+    #[default]
+    Bilinear,
+    /// The nearest pixel.
+    Nearest,
 }
 
 /// The kinds of texture.

@@ -14,7 +14,7 @@ use scene_kit::*;
 /// A medium of index `ior` that absorbs as told.
 fn add_medium(kit: &mut SceneKit, name: &str, ior: f64, absorption: Absorption) {
     let index = IndexDescription::Constant(ior);
-    let medium = MediumDescription { name: name.into(), index, absorption, scattering: None, priority: 0 };
+    let medium = MediumDescription { absorption, ..MediumDescription::clear(name, index) };
     kit.description.media.push(medium.into());
 }
 

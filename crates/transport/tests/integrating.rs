@@ -63,6 +63,8 @@ fn a_sphere_whose_wall_shines_and_scatters_sums_its_own_light() {
         quantity: EmissionQuantity::Radiance,
         two_sided: true,
         visible_to_camera: true,
+        texture: None,
+        medium: None,
     });
     let world = kit.world();
     let expected = f64::from(radiance) / (1.0 - f64::from(albedo));

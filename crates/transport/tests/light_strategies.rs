@@ -157,14 +157,8 @@ fn an_image_of_the_sky_is_hit_as_it_is_sampled() {
     pixels[4 * 16..5 * 16].fill([0.0; 3]);
     let image = ImageData { width: 16, height: 8, pixels };
     let mut kit = corner();
-    kit.description.textures.push(
-        TextureDescription {
-            name: "sky".into(),
-            kind: TextureKind::Image(Arc::new(image)),
-            uv_transform: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]],
-        }
-        .into(),
-    );
+    let sky = TextureDescription::new("sky", TextureKind::Image(Arc::new(image)));
+    kit.description.textures.push(sky.into());
     kit.light(LightKind::Environment {
         radiance: [2.0; 3],
         image: Some("sky".into()),

@@ -197,14 +197,8 @@ fn an_image_of_the_sky_lights_as_its_integral_does() {
         pixels: [[3.0; 3], [1.0; 3]].into_iter().flat_map(|row| [row; 4]).collect(),
     };
     let mut kit = plane();
-    kit.description.textures.push(
-        TextureDescription {
-            name: "sky".into(),
-            kind: TextureKind::Image(Arc::new(image)),
-            uv_transform: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]],
-        }
-        .into(),
-    );
+    let sky = TextureDescription::new("sky", TextureKind::Image(Arc::new(image)));
+    kit.description.textures.push(sky.into());
     kit.light(LightKind::Environment {
         radiance: [2.0; 3],
         image: Some("sky".into()),
@@ -242,6 +236,8 @@ fn a_lamp_of_a_given_power_has_that_power_over_pi_and_area_as_radiance() {
                 quantity: EmissionQuantity::Power,
                 two_sided,
                 visible_to_camera: true,
+                texture: None,
+                medium: None,
             };
             kit.camera(DVec3::Z * 3.0, DVec3::ZERO);
             let moments = estimate(&kit.world(), ray(DVec3::new(0.05, 0.02, 3.0), -DVec3::Z), 2);

@@ -72,8 +72,7 @@ mod tests {
     use super::*;
 
     fn texture(kind: TextureKind) -> Texture {
-        let uv_transform = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
-        Texture::new(&TextureDescription { name: "t".into(), kind, uv_transform })
+        Texture::new(&TextureDescription::new("t", kind))
     }
 
     #[test]

@@ -75,6 +75,8 @@ impl Importer<'_> {
             MaterialKind::ThinDielectric { .. } => "thin-dielectric",
             MaterialKind::PassThrough => "pass-through",
             MaterialKind::Black => "black",
+            MaterialKind::Plastic { .. } => "plastic",
+            MaterialKind::Blend { .. } => "blend",
             MaterialKind::GlossySpecular { .. } | MaterialKind::SimpleTransparent { .. } => "finish",
         });
         // The two sides of these do not differ.

@@ -73,9 +73,7 @@ impl Importer<'_> {
             return Ok(None);
         };
         let name = self.object_name(emitter.id().unwrap_or("envmap").to_owned()) + "/image";
-        let uv_transform = crate::own::IDENTITY_UV;
-        let texture =
-            TextureDescription { name: name.clone(), kind: TextureKind::Image(image), uv_transform };
+        let texture = TextureDescription::new(name.clone(), TextureKind::Image(image));
         self.scene.textures.push(Located::new(texture, emitter.source().clone()));
         let turned = Transform::from_parts(to_world.linear(), DVec3::ZERO);
         let half_turn = Transform::rotate(DVec3::Y, std::f64::consts::PI);
@@ -107,6 +105,8 @@ pub(super) fn area(emitter: Element<'_>) -> Result<Option<Emission>> {
         quantity: EmissionQuantity::Radiance,
         two_sided: false,
         visible_to_camera: true,
+        texture: None,
+        medium: None,
     }))
 }
 

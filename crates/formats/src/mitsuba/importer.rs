@@ -121,7 +121,7 @@ impl<'a> Importer<'a> {
         two_sided: bool,
         source: &Source,
     ) -> Located<String> {
-        let material = MaterialDescription { name: name.to_owned(), kind, two_sided };
+        let material = MaterialDescription { two_sided, ..MaterialDescription::new(name, kind) };
         Located::new(add_material(&mut self.scene.materials, material, source), source.clone())
     }
 }

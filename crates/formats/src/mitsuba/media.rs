@@ -4,7 +4,9 @@ use super::element::Element;
 use super::importer::Importer;
 use crate::Result;
 use crate::limits::Limits;
-use hyaline_scene::{Absorption, IndexDescription, Located, MediumDescription, Rgb, Scattering, Source};
+use hyaline_scene::{
+    Absorption, IndexDescription, Located, MediumDescription, PhaseDescription, Rgb, Scattering, Source,
+};
 
 /// A volume of the file: what it swallows and scatters, without an index.
 #[derive(Clone, Debug)]
@@ -65,11 +67,9 @@ impl Importer<'_> {
             name.push('\'');
         }
         let medium = MediumDescription {
-            name: name.clone(),
-            index: IndexDescription::Constant(index),
             absorption,
             scattering,
-            priority: 0,
+            ..MediumDescription::clear(name.clone(), IndexDescription::Constant(index))
         };
         self.scene.media.push(Located::new(medium, source.clone()));
         self.media.made.push((volume, index, name.clone()));
@@ -126,7 +126,10 @@ fn coefficients(element: Element<'_>) -> Result<(Absorption, Option<Scattering>)
     }
     let g = phase(element)?;
     let absorption = if sigma_a == [0.0; 3] { Absorption::None } else { Absorption::SigmaA(sigma_a) };
-    Ok((absorption, (sigma_s != [0.0; 3]).then_some(Scattering { sigma_s, g })))
+    Ok((
+        absorption,
+        (sigma_s != [0.0; 3]).then_some(Scattering { sigma_s, phase: PhaseDescription::from_mean_cosine(g) }),
+    ))
 }
 
 /// A coefficient, which may be wrapped into a constant volume.

@@ -130,7 +130,10 @@ fn a_dielectric_names_the_media_of_both_sides() {
     let juice = scene.media.iter().find(|medium| medium.name == "juice").unwrap();
     assert_eq!(juice.index, IndexDescription::Constant(1.33));
     assert_eq!(juice.absorption, Absorption::SigmaA([2.0, 2.0, 6.0]));
-    assert_eq!(juice.scattering, Some(Scattering { sigma_s: [0.0, 2.0, 0.0], g: 0.0 }));
+    assert_eq!(
+        juice.scattering,
+        Some(Scattering { sigma_s: [0.0, 2.0, 0.0], phase: PhaseDescription::Isotropic })
+    );
     assert_eq!(scene.surrounding, None);
 }
 

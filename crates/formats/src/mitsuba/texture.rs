@@ -61,7 +61,7 @@ impl Importer<'_> {
             }
         };
         let uv_transform = uv_transform(texture, rows_go_down)?;
-        let description = TextureDescription { name: name.clone(), kind, uv_transform };
+        let description = TextureDescription { uv_transform, ..TextureDescription::new(name.clone(), kind) };
         self.scene.textures.push(Located::new(description, source.clone()));
         Ok(ColorSource::Texture(Located::new(name, source.clone())))
     }

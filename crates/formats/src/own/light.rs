@@ -123,11 +123,7 @@ impl Reader<'_> {
             Some(field) => {
                 let encoding = table.read_some("encoding", texture::encoding)?;
                 let image = self.assets.image(field.source(), field.string()?, encoding)?;
-                let texture = TextureDescription {
-                    name: format!("{name}/image"),
-                    kind: TextureKind::Image(image),
-                    uv_transform: texture::IDENTITY_UV,
-                };
+                let texture = TextureDescription::new(format!("{name}/image"), TextureKind::Image(image));
                 let texture_name = texture.name.clone();
                 self.scene.textures.push(Located::new(texture, field.source().clone()));
                 Some(Located::new(texture_name, field.source().clone()))

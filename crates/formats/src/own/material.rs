@@ -61,7 +61,7 @@ impl Reader<'_> {
         let kind = self.material_kind(&mut table)?;
         let two_sided = table.read("two_sided", true, |field| field.boolean())?;
         table.finish()?;
-        Ok(MaterialDescription { name, kind, two_sided })
+        Ok(MaterialDescription { two_sided, ..MaterialDescription::new(name, kind) })
     }
 
     fn material_kind(&mut self, table: &mut Table<'_>) -> Result<MaterialKind> {

@@ -9,7 +9,7 @@ use super::field::Field;
 use super::table::Table;
 use crate::Result;
 use crate::limits::Limits;
-use hyaline_scene::{Absorption, IndexDescription, MediumDescription, Scattering};
+use hyaline_scene::{Absorption, IndexDescription, MediumDescription, PhaseDescription, Scattering};
 
 /// Indices of refraction that exist or are worth trying.
 const IOR: Limits = Limits::above_to(0.0, 100.0);
@@ -21,14 +21,16 @@ pub(super) fn read(table: &mut Table<'_>, metres: f64, base: MediumDescription) 
         None => base.absorption,
         Some(field) => absorption(field, metres)?,
     };
-    let old = base.scattering.unwrap_or(Scattering { sigma_s: [0.0; 3], g: 0.0 });
+    let isotropic = Scattering { sigma_s: [0.0; 3], phase: PhaseDescription::Isotropic };
+    let old = base.scattering.clone().unwrap_or(isotropic);
     let sigma_s = table.read("sigma_s", old.sigma_s, |field| field.color(Limits::NOT_NEGATIVE))?;
-    let g = table.read("g", old.g, |field| field.number_f32(Limits::inside(-1.0, 1.0)))?;
-    let scattering = (sigma_s != [0.0; 3]).then_some(Scattering { sigma_s, g });
+    let g = table.read_some("g", |field| field.number_f32(Limits::inside(-1.0, 1.0)))?;
+    let phase = g.map_or(old.phase, PhaseDescription::from_mean_cosine);
+    let scattering = (sigma_s != [0.0; 3]).then_some(Scattering { sigma_s, phase });
     let priorities = (i64::from(i32::MIN), i64::from(i32::MAX));
     let priority =
         table.read("priority", i64::from(base.priority), |f| f.integer(priorities.0, priorities.1))?;
-    Ok(MediumDescription { name: base.name, index, absorption, scattering, priority: priority as i32 })
+    Ok(MediumDescription { index, absorption, scattering, priority: priority as i32, ..base })
 }
 
 fn index(field: Field<'_>) -> Result<IndexDescription> {

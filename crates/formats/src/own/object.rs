@@ -145,6 +145,8 @@ impl Reader<'_> {
             quantity,
             two_sided: table.read("two_sided", two_sided, |field| field.boolean())?,
             visible_to_camera: table.read("visible_to_camera", visible, |field| field.boolean())?,
+            texture: base.and_then(|base| base.texture.clone()),
+            medium: base.and_then(|base| base.medium.clone()),
         })
     }
 }

@@ -2,8 +2,8 @@
 
 use crate::Result;
 use hyaline_scene::{
-    Absorption, BoundaryDescription, IndexDescription, Located, MaterialDescription, MediumDescription,
-    SceneDescription, SceneError, ShapeDescription, Source,
+    BoundaryDescription, IndexDescription, Located, MaterialDescription, MediumDescription, SceneDescription,
+    SceneError, ShapeDescription, Source,
 };
 use std::collections::BTreeMap;
 
@@ -75,9 +75,7 @@ pub(super) fn complete(scene: &mut SceneDescription) -> Result<()> {
         }
     }
     for (name, source) in missing {
-        let index = IndexDescription::Constant(1.0);
-        let medium =
-            MediumDescription { name, index, absorption: Absorption::None, scattering: None, priority: 0 };
+        let medium = MediumDescription::clear(name, IndexDescription::Constant(1.0));
         scene.media.push(Located::new(medium, source));
     }
     require_distinct_names(scene)

@@ -140,13 +140,7 @@ impl<'a> Reader<'a> {
     }
 
     fn medium_entry(&mut self, mut table: Table<'_>, name: Located<String>) -> Result<()> {
-        let clear = MediumDescription {
-            name: name.value,
-            index: IndexDescription::Constant(1.0),
-            absorption: hyaline_scene::Absorption::None,
-            scattering: None,
-            priority: 0,
-        };
+        let clear = MediumDescription::clear(name.value, IndexDescription::Constant(1.0));
         let medium = medium::read(&mut table, self.metres, clear)?;
         table.finish()?;
         self.scene.media.push(Located::new(medium, name.source));
@@ -168,7 +162,7 @@ impl<'a> Reader<'a> {
         kind: MaterialKind,
         source: &Source,
     ) -> Located<String> {
-        let wanted = MaterialDescription { name: name.to_owned(), kind, two_sided: true };
+        let wanted = MaterialDescription::new(name, kind);
         let name = references::add_material(&mut self.scene.materials, wanted, source);
         Located::new(name, source.clone())
     }

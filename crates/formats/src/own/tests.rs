@@ -80,7 +80,10 @@ fn every_key_is_read() {
     assert_eq!(*index("cauchy"), IndexDescription::Cauchy { a: 1.5, b: 0.004, c: 0.0 });
     assert!(matches!(index("sellmeier"), IndexDescription::Sellmeier { .. }));
     let fog = scene.media.iter().find(|medium| medium.name == "fog").unwrap();
-    assert_eq!(fog.scattering, Some(Scattering { sigma_s: [0.5; 3], g: 0.4 }));
+    assert_eq!(
+        fog.scattering,
+        Some(Scattering { sigma_s: [0.5; 3], phase: PhaseDescription::HenyeyGreenstein { g: 0.4 } })
+    );
     assert_eq!(fog.absorption, Absorption::SigmaA([0.1, 0.2, 0.3]));
     assert_eq!(scene.surrounding.as_ref().unwrap().value, "fog");
     assert_eq!(scene.textures.len(), 3, "two named and one on the spot");

@@ -23,7 +23,7 @@ impl Reader<'_> {
         let kind = self.texture_kind(&mut table)?;
         let uv_transform = uv_transform(&mut table)?;
         table.finish()?;
-        let texture = TextureDescription { name: name.value, kind, uv_transform };
+        let texture = TextureDescription { uv_transform, ..TextureDescription::new(name.value, kind) };
         self.scene.textures.push(Located::new(texture, name.source));
         Ok(())
     }
@@ -57,7 +57,8 @@ impl Reader<'_> {
             name.push('\'');
         }
         let name = Located::new(name, field.source().clone());
-        let texture = TextureDescription { name: name.value.clone(), kind, uv_transform };
+        let texture =
+            TextureDescription { uv_transform, ..TextureDescription::new(name.value.clone(), kind) };
         self.scene.textures.push(Located::new(texture, name.source.clone()));
         Ok(name)
     }

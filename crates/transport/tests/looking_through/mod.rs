@@ -246,9 +246,8 @@ fn follow(world: &World, mut ray: Ray, choices: Choices) -> Seen {
 fn add_room(kit: &mut SceneKit, room: f64) {
     let periods = (0.5 * SQUARES) as f32;
     let checker = TextureDescription {
-        name: "checker".into(),
-        kind: TextureKind::Checker { even: [LIGHT; 3], odd: [DARK; 3] },
         uv_transform: [[periods, 0.0, 0.0], [0.0, periods, 0.0]],
+        ..TextureDescription::new("checker", TextureKind::Checker { even: [LIGHT; 3], odd: [DARK; 3] })
     };
     kit.description.textures.push(checker.into());
     kit.material("wall", MaterialKind::Matte { reflectance: ColorSource::Texture("checker".into()) });

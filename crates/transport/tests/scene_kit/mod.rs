@@ -53,20 +53,16 @@ impl SceneKit {
 
     pub fn absorbing_medium(&mut self, name: &str, ior: f64, sigma_a: Rgb, priority: i32) -> &mut Self {
         let medium = MediumDescription {
-            name: name.into(),
-            index: IndexDescription::Constant(ior),
             absorption: Absorption::SigmaA(sigma_a),
-            scattering: None,
             priority,
+            ..MediumDescription::clear(name, IndexDescription::Constant(ior))
         };
         self.description.media.push(medium.into());
         self
     }
 
     pub fn material(&mut self, name: &str, kind: MaterialKind) -> &mut Self {
-        self.description
-            .materials
-            .push(MaterialDescription { name: name.into(), kind, two_sided: true }.into());
+        self.description.materials.push(MaterialDescription::new(name, kind).into());
         self
     }
 
@@ -125,6 +121,8 @@ impl SceneKit {
             quantity: EmissionQuantity::Radiance,
             two_sided: false,
             visible_to_camera: true,
+            texture: None,
+            medium: None,
         });
         self
     }

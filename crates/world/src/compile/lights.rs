@@ -86,6 +86,10 @@ fn compile(
                 }
             })
         }
+        LightKind::Projector { .. } => {
+            let message = format!("light '{}': projectors can't be rendered yet", light.name);
+            return Err(SceneError::at(&light.source, message).with_remedy("make it a spot"));
+        }
         LightKind::Ambient { .. } => unreachable!("ambient terms are summed, not compiled"),
     })
 }

@@ -65,6 +65,10 @@ fn compile(library: &Library, description: &Located<MaterialDescription>) -> Res
         MaterialKind::ThinDielectric { ior, tint } => {
             Finish::ThinDielectric { ior: *ior, tint: color(tint)? }
         }
+        MaterialKind::Plastic { .. } | MaterialKind::Blend { .. } => {
+            let message = format!("material '{}' can't be rendered yet", description.name);
+            return Err(SceneError::at(&description.source, message).with_remedy("use another kind"));
+        }
         MaterialKind::PassThrough => Finish::PassThrough,
         MaterialKind::Black => Finish::Black,
     };

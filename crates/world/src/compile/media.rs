@@ -32,7 +32,7 @@ pub(super) fn compile(
         );
         notes.push(Note::warning(&description.source, message));
     }
-    let g = description.scattering.as_ref().map_or(0.0, |s| s.g);
+    let g = description.scattering.as_ref().map_or(0.0, |s| s.phase.mean_cosine());
     Ok(Medium { ior, sigma_a: Spectrum::from_rgb(sigma_a), sigma_s: Spectrum::from_rgb(sigma_s), g })
 }
 
