@@ -41,7 +41,7 @@ pub struct FileIntegrator {
 }
 
 /// Settings of `photon-map`, in the words of Jensen's *Realistic Image Synthesis Using Photon Mapping*.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct PhotonMapSettings {
     /// Photons emitted for the caustic map: toward polished and glossy surfaces only, where `projection` says so.
     pub caustic_photons: u32,

@@ -3,6 +3,7 @@
 pub mod direct;
 pub mod first_hit;
 pub mod integrator;
+pub mod photon;
 pub mod shadow;
 pub mod stats;
 pub mod walk;

@@ -30,7 +30,17 @@ const RULES: [Rule; 14] = [
     Rule {
         name: "transport",
         layer: 5,
-        may_import: &["math", "optics", "sampling", "spectrum", "geometry", "scattering", "film", "world"],
+        may_import: &[
+            "math",
+            "optics",
+            "sampling",
+            "scene",
+            "spectrum",
+            "geometry",
+            "scattering",
+            "film",
+            "world",
+        ],
     },
     Rule {
         name: "render",

@@ -38,6 +38,10 @@ pub struct RenderSettings {
     pub min_weight: f32,
     /// `whitted`: shadow rays per area light and hit, ≥ 1.
     pub light_samples: u32,
+    /// `photon-map`: what its stages do.
+    pub photon_map: hyaline_scene::PhotonMapSettings,
+    /// `debug`: what it shows.
+    pub debug: hyaline_scene::DebugView,
 }
 
 impl Default for RenderSettings {
@@ -48,6 +52,8 @@ impl Default for RenderSettings {
             max_depth: None,
             min_weight: 1.0 / 512.0,
             light_samples: 1,
+            photon_map: hyaline_scene::PhotonMapSettings::default(),
+            debug: hyaline_scene::DebugView::default(),
         }
     }
 }

@@ -1,0 +1,1 @@
+//! Photons: how they start, travel, are kept, and are found again.
