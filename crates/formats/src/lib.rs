@@ -116,7 +116,7 @@ pub fn mesh_from_bytes(bytes: &[u8], file_name: &str) -> std::result::Result<Mes
     mesh::read(Path::new(file_name), bytes)
 }
 
-/// Reads an image file (`.png`, `.exr`, `.pfm`, `.hdr`) as linear Rec. 709 colors; 8- and 16-bit images are taken as
+/// Reads an image file (`.png`, `.jpg`, `.exr`, `.pfm`, `.hdr`) as linear Rec. 709 colors; 8- and 16-bit images are taken as
 /// sRGB.
 ///
 /// # Errors

@@ -2,6 +2,7 @@
 
 mod exr;
 mod hdr;
+mod jpeg;
 mod pfm;
 mod png;
 
@@ -17,7 +18,7 @@ use std::path::Path;
 const MAX_PIXELS: u64 = 1 << 28;
 
 /// Formats that can be read, by ending.
-pub(crate) const ENDINGS: [&str; 4] = ["png", "exr", "pfm", "hdr"];
+pub(crate) const ENDINGS: [&str; 6] = ["png", "jpg", "jpeg", "exr", "pfm", "hdr"];
 
 /// How the values of a file are to be taken.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -39,6 +40,7 @@ pub(crate) fn read(path: &Path, bytes: &[u8], encoding: Option<Encoding>) -> Res
     let ending = ending(path);
     let (decoded, native) = match ending.as_str() {
         "png" => (png::read(bytes), Encoding::Srgb),
+        "jpg" | "jpeg" => (jpeg::read(bytes), Encoding::Srgb),
         "exr" => (exr::read(bytes), Encoding::Linear),
         "pfm" => (pfm::read(bytes), Encoding::Linear),
         "hdr" => (hdr::read(bytes), Encoding::Linear),
@@ -57,6 +59,11 @@ pub(crate) fn read(path: &Path, bytes: &[u8], encoding: Option<Encoding>) -> Res
         true => Err(SceneError::at(&source, "the image has pixels that are not finite")),
         false => Ok(image),
     }
+}
+
+/// Whether images of this file name are of integers, which are sRGB unless told otherwise.
+pub(crate) fn has_bytes(name: &str) -> bool {
+    matches!(ending(Path::new(name)).as_str(), "png" | "jpg" | "jpeg")
 }
 
 /// Checks a size before anything is allocated for it.

@@ -175,10 +175,16 @@ impl<'a> Element<'a> {
         Ok(self.children(tag)?.into_iter().next().map(|(_, element)| element))
     }
 
-    /// The plugin of a tag that is used under `name`.
+    /// The plugin of a tag that is used under `name`; others of the tag are left to who asks for them.
     pub(super) fn child_named(&self, tag: &str, name: &str) -> Result<Option<Element<'a>>> {
-        let children = self.children(tag)?;
-        Ok(children.into_iter().find(|(used_as, _)| *used_as == Some(name)).map(|(_, element)| element))
+        for child in self.plugin.children.iter().filter(|child| child.name.as_deref() == Some(name)) {
+            let plugin = self.resolve(child)?;
+            if plugin.tag == tag {
+                child.used.set(true);
+                return Ok(Some(Self::visit(self.tree, plugin, self.notes)));
+            }
+        }
+        Ok(None)
     }
 
     fn resolve(&self, child: &'a Child) -> Result<&'a Plugin> {

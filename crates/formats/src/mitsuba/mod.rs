@@ -5,11 +5,9 @@
 //! together with that side's index of refraction. Without volume and with index 1 it is the world's.
 
 mod bsdf;
-mod conductor;
 mod element;
 mod emitter;
 mod importer;
-mod indices;
 mod media;
 mod notes;
 mod parse;

@@ -207,7 +207,7 @@ fn finishes_are_read() {
         if (r - 0.2).abs() < 1e-6));
     let thin = "<bsdf type='thindielectric'><float name='int_ior' value='1.5'/><float name='ext_ior' value='1'/></bsdf>";
     assert!(matches!(kind(thin), (MaterialKind::ThinDielectric { ior: 1.5, .. }, true, 0)));
-    assert!(matches!(kind("<bsdf type='plastic'/>"), (MaterialKind::Phong { .. }, false, 1)));
+    assert!(matches!(kind("<bsdf type='plastic'/>"), (MaterialKind::Plastic { .. }, false, 0)));
     assert!(matches!(kind("<bsdf type='hair'/>"), (MaterialKind::Matte { .. }, false, 1)));
 }
 
