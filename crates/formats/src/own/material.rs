@@ -10,10 +10,14 @@
 //! | simple-transparent | k_r (0.1), k_t (0.9), phong = `{ diffuse, specular, exponent }` |
 //! | dielectric | roughness (0), reflected (1), transmitted (1) |
 //! | thin-dielectric | ior (1.5), tint (1) |
+//! | plastic | color (0.5), specular (1), ior (1.5), roughness (0), nonlinear (false) |
+//! | blend | first, second: names or materials; weight (0.5), the share of the second |
 //! | pass-through, black | none |
 //!
-//! Each also has `two_sided` (true). Colors, exponents and roughness may come from textures: `{ texture = "NAME" }`,
-//! `{ checker = [color, color], scale = 12 }`, `{ image = "FILE", scale = 1 }`.
+//! Each also has `opacity` (1) and a relief: `bump`, `normals` or `slopes`. Opaque ones have `two_sided` (true) and `back`,
+//! a name or a material, transparent ones `straight_shadows` (false). Colors, exponents, roughness, opacity and weight
+//! may come from textures: `{ texture = "NAME" }`, `{ checker = [color, color], scale = 12 }`,
+//! `{ image = "FILE", scale = 1 }`.
 
 use super::field::Field;
 use super::scene::Reader;
@@ -22,7 +26,7 @@ use crate::Result;
 use crate::limits::Limits;
 use hyaline_scene::{ColorSource, Located, MaterialDescription, MaterialKind, Metal, ScalarSource, Source};
 
-const KINDS: [&str; 10] = [
+const KINDS: [&str; 12] = [
     "matte",
     "phong",
     "mirror",
@@ -31,11 +35,15 @@ const KINDS: [&str; 10] = [
     "simple-transparent",
     "dielectric",
     "thin-dielectric",
+    "plastic",
+    "blend",
     "pass-through",
     "black",
 ];
 /// Exponents of Phong lobes: beyond, a mirror is meant.
 const EXPONENT: Limits = Limits::between(0.0, 1e6);
+/// Indices of refraction of coats and panes.
+const IOR: Limits = Limits::above_to(0.0, 100.0);
 
 impl Reader<'_> {
     /// Reads an entry of `[materials]`.
@@ -58,13 +66,31 @@ impl Reader<'_> {
     }
 
     fn material_table(&mut self, mut table: Table<'_>, name: String) -> Result<MaterialDescription> {
-        let kind = self.material_kind(&mut table)?;
+        let kind = self.material_kind(&mut table, &name)?;
         let two_sided = table.read("two_sided", true, |field| field.boolean())?;
+        let opacity = self.scalar(&mut table, "opacity", 1.0, Limits::FRACTION)?;
+        let relief = self.relief(&mut table)?;
+        let is_transparent = is_transparent(&kind);
+        let straight_shadows = match table.take("straight_shadows") {
+            Some(field) if field.boolean()? && !is_transparent => {
+                let error = field.error("`straight_shadows` is for finishes that refract light");
+                return Err(error.with_remedy("those are dielectric, thin-dielectric and simple-transparent"));
+            }
+            Some(field) => field.boolean()?,
+            None => false,
+        };
+        let back = match table.take("back") {
+            Some(field) if is_transparent || kind == MaterialKind::PassThrough => {
+                return Err(field.error("a transparent finish has no `back` of its own"));
+            }
+            Some(field) => Some(self.material(field, &name)?),
+            None => None,
+        };
         table.finish()?;
-        Ok(MaterialDescription { two_sided, ..MaterialDescription::new(name, kind) })
+        Ok(MaterialDescription { name, kind, two_sided, back, opacity, relief, straight_shadows })
     }
 
-    fn material_kind(&mut self, table: &mut Table<'_>) -> Result<MaterialKind> {
+    fn material_kind(&mut self, table: &mut Table<'_>, name: &str) -> Result<MaterialKind> {
         let kind = table.require("kind", "\"matte\"")?;
         Ok(match kind.string()? {
             "matte" => MaterialKind::Matte { reflectance: self.reflectance(table, "color", 0.5)? },
@@ -92,8 +118,20 @@ impl Reader<'_> {
                 ),
             },
             "thin-dielectric" => MaterialKind::ThinDielectric {
-                ior: table.read("ior", 1.5, |field| field.number_f32(Limits::above_to(0.0, 100.0)))?,
+                ior: table.read("ior", 1.5, |field| field.number_f32(IOR))?,
                 tint: self.reflectance(table, "tint", 1.0)?,
+            },
+            "plastic" => MaterialKind::Plastic {
+                diffuse: self.reflectance(table, "color", 0.5)?,
+                specular: self.reflectance(table, "specular", 1.0)?,
+                ior: table.read("ior", 1.5, |field| field.number_f32(IOR))?,
+                roughness: self.roughness(table)?,
+                nonlinear: table.read("nonlinear", false, |field| field.boolean())?,
+            },
+            "blend" => MaterialKind::Blend {
+                first: self.material(table.require("first", "\"wood\"")?, name)?,
+                second: self.material(table.require("second", "{ kind = \"mirror\" }")?, name)?,
+                weight: self.scalar(table, "weight", 0.5, Limits::FRACTION)?,
             },
             "pass-through" => MaterialKind::PassThrough,
             "black" => MaterialKind::Black,
@@ -109,13 +147,40 @@ impl Reader<'_> {
     }
 
     fn exponent(&mut self, table: &mut Table<'_>) -> Result<ScalarSource> {
-        let field = table.take("exponent");
-        field.map_or(Ok(ScalarSource::Constant(100.0)), |field| self.scalar_source(field, EXPONENT))
+        self.scalar(table, "exponent", 100.0, EXPONENT)
     }
 
     fn roughness(&mut self, table: &mut Table<'_>) -> Result<ScalarSource> {
-        let field = table.take("roughness");
-        field.map_or(Ok(ScalarSource::Constant(0.0)), |field| self.scalar_source(field, Limits::FRACTION))
+        self.scalar(table, "roughness", 0.0, Limits::FRACTION)
+    }
+
+    fn scalar(
+        &mut self,
+        table: &mut Table<'_>,
+        key: &'static str,
+        default: f32,
+        limits: Limits,
+    ) -> Result<ScalarSource> {
+        let field = table.take(key);
+        field.map_or(Ok(ScalarSource::Constant(default)), |field| self.scalar_source(field, limits))
+    }
+}
+
+/// Whether a finish refracts light or stands for what does.
+fn is_transparent(kind: &MaterialKind) -> bool {
+    match kind {
+        MaterialKind::Dielectric { .. }
+        | MaterialKind::ThinDielectric { .. }
+        | MaterialKind::SimpleTransparent { .. } => true,
+        MaterialKind::Matte { .. }
+        | MaterialKind::Phong { .. }
+        | MaterialKind::PerfectSpecular { .. }
+        | MaterialKind::Conductor { .. }
+        | MaterialKind::GlossySpecular { .. }
+        | MaterialKind::Plastic { .. }
+        | MaterialKind::Blend { .. }
+        | MaterialKind::PassThrough
+        | MaterialKind::Black => false,
     }
 }
 

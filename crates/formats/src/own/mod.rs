@@ -16,6 +16,7 @@ mod medium;
 mod object;
 mod overrides;
 mod references;
+mod relief;
 mod scene;
 mod settings;
 mod shape;
@@ -25,6 +26,8 @@ mod texture;
 mod transform;
 mod vessel;
 
+#[cfg(test)]
+mod material_tests;
 #[cfg(test)]
 mod tests;
 

@@ -104,7 +104,10 @@ fn common_sides(bsdf: Element<'_>, first: Sides, second: Sides) -> Sides {
         (Sides::PassThrough, sides) | (sides, Sides::PassThrough) => sides,
         (first, second) if first == second => first,
         _ => {
-            bsdf.warn(format!("{} has dielectrics of different indices; those of the first count", bsdf.title()));
+            bsdf.warn(format!(
+                "{} has dielectrics of different indices; those of the first count",
+                bsdf.title()
+            ));
             first
         }
     }

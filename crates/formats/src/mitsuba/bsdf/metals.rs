@@ -15,8 +15,9 @@ const KNOWN: [(&str, &str); 6] = [
 
 /// Mitsuba's names that it lacks, without `_palik`.
 const LACKING: [&str; 33] = [
-    "a-C", "AlAs", "AlSb", "Be", "CsI", "Cu2O", "CuO", "d-C", "Hg", "HgTe", "Ir", "K", "Li", "MgO", "Mo", "Na", "Nb",
-    "Rh", "Se", "SiC", "SnTe", "Ta", "Te", "ThF4", "TiC", "TiN", "TiO2", "V", "VC", "VN", "W", "Ti", "Fe",
+    "a-C", "AlAs", "AlSb", "Be", "CsI", "Cu2O", "CuO", "d-C", "Hg", "HgTe", "Ir", "K", "Li", "MgO", "Mo",
+    "Na", "Nb", "Rh", "Se", "SiC", "SnTe", "Ta", "Te", "ThF4", "TiC", "TiN", "TiO2", "V", "VC", "VN", "W",
+    "Ti", "Fe",
 ];
 
 /// Our name of a metal, if the catalogue has it.

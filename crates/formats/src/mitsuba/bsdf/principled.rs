@@ -81,7 +81,9 @@ impl Importer<'_> {
         let root = |color: [f32; 3]| color.map(|value| value.max(0.0).sqrt());
         match color {
             ColorSource::Constant(color) => ColorSource::Constant(root(*color)),
-            ColorSource::Texture(texture) => ColorSource::Texture(self.derived_texture(texture, "root", root)),
+            ColorSource::Texture(texture) => {
+                ColorSource::Texture(self.derived_texture(texture, "root", root))
+            }
         }
     }
 }

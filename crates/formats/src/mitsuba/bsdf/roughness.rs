@@ -22,7 +22,8 @@ impl Importer<'_> {
 
     /// Width of the lobe, 0…1.
     pub(super) fn alpha(&mut self, bsdf: Element<'_>) -> Result<ScalarSource> {
-        let has = |name: &str| Ok(bsdf.property(name).is_some() || bsdf.child_named("texture", name)?.is_some());
+        let has =
+            |name: &str| Ok(bsdf.property(name).is_some() || bsdf.child_named("texture", name)?.is_some());
         if !has("alpha_u")? && !has("alpha_v")? {
             return self.scalar_source(bsdf, "alpha", DEFAULT_ALPHA);
         }
