@@ -6,6 +6,8 @@ use std::time::Instant;
 
 const TOML: &str = include_str!("scenes/everything.toml");
 const XML: &str = include_str!("scenes/everything.xml");
+const TOML_FINISHES: &str = include_str!("scenes/finishes.toml");
+const XML_FINISHES: &str = include_str!("scenes/finishes.xml");
 
 /// Damaged variants of each file.
 const ROUNDS: u32 = 8000;
@@ -124,9 +126,11 @@ fn damaged_toml_scenes_are_survived() {
             }
         }
     };
-    assert!(read(TOML.as_bytes()));
-    let accepted = feed(TOML.as_bytes(), 1, ROUNDS, read);
-    assert!(accepted > 0 && accepted < ROUNDS, "{accepted}");
+    for (scene, rounds) in [(TOML, ROUNDS), (TOML_FINISHES, ROUNDS / 4)] {
+        assert!(read(scene.as_bytes()));
+        let accepted = feed(scene.as_bytes(), 1, rounds, read);
+        assert!(accepted > 0 && accepted < rounds, "{accepted}");
+    }
 }
 
 #[test]
@@ -154,9 +158,11 @@ fn damaged_mitsuba_scenes_are_survived() {
         let text = String::from_utf8_lossy(bytes);
         load_mitsuba_text(&text, "a.xml", Path::new("."), &[]).is_ok()
     };
-    assert!(read(XML.as_bytes()));
-    let accepted = feed(XML.as_bytes(), 3, ROUNDS, read);
-    assert!(accepted > 0 && accepted < ROUNDS, "{accepted}");
+    for (scene, rounds) in [(XML, ROUNDS), (XML_FINISHES, ROUNDS / 4)] {
+        assert!(read(scene.as_bytes()));
+        let accepted = feed(scene.as_bytes(), 3, rounds, read);
+        assert!(accepted > 0 && accepted < rounds, "{accepted}");
+    }
 }
 
 /// A ball of quadrilaterals, ascii or binary.

@@ -4,20 +4,26 @@
 //! for both: the sources differ by less than the specimens they were measured on.
 
 /// Mitsuba's names that the catalogue of metals has, without `_palik`, with ours.
-const KNOWN: [(&str, &str); 6] = [
+const KNOWN: [(&str, &str); 13] = [
     ("Ag", "silver"),
     ("Al", "aluminium"),
     ("Au", "gold"),
     ("Cr", "chromium"),
     ("Cu", "copper"),
+    ("Hg", "mercury"),
+    ("Mo", "molybdenum"),
+    ("Nb", "niobium"),
     ("Ni", "nickel"),
+    ("Rh", "rhodium"),
+    ("TiN", "titanium nitride"),
+    ("V", "vanadium"),
+    ("W", "tungsten"),
 ];
 
 /// Mitsuba's names that it lacks, without `_palik`.
-const LACKING: [&str; 33] = [
-    "a-C", "AlAs", "AlSb", "Be", "CsI", "Cu2O", "CuO", "d-C", "Hg", "HgTe", "Ir", "K", "Li", "MgO", "Mo",
-    "Na", "Nb", "Rh", "Se", "SiC", "SnTe", "Ta", "Te", "ThF4", "TiC", "TiN", "TiO2", "V", "VC", "VN", "W",
-    "Ti", "Fe",
+const LACKING: [&str; 24] = [
+    "a-C", "AlAs", "AlSb", "Be", "CsI", "Cu2O", "CuO", "d-C", "HgTe", "Ir", "K", "Li", "MgO", "Na", "Se",
+    "SiC", "SnTe", "Ta", "Te", "ThF4", "TiC", "TiO2", "VC", "VN",
 ];
 
 /// Our name of a metal, if the catalogue has it.

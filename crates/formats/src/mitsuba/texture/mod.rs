@@ -94,11 +94,13 @@ impl Importer<'_> {
 
     fn checkerboard(&mut self, texture: Element<'_>) -> Result<ColorSource> {
         let color = |name: &str, default: f32| {
-            if texture.child_named("texture", name)?.is_some() {
-                texture
-                    .warn(format!("`{name}` of a checkerboard can't be a texture and is replaced by grey"));
+            if let Some(color) = texture.color(name, Limits::NOT_NEGATIVE)? {
+                return Ok(color);
             }
-            texture.color(name, Limits::NOT_NEGATIVE).map(|color| color.unwrap_or([default; 3]))
+            if texture.child_named("texture", name)?.is_some() {
+                texture.warn(format!("`{name}` of a checkerboard can't be a texture and keeps its default"));
+            }
+            Ok([default; 3])
         };
         let kind = TextureKind::Checker { even: color("color0", 0.4)?, odd: color("color1", 0.2)? };
         let uv_transform = uv_transform(texture, false)?;

@@ -18,7 +18,14 @@ fn metals_of_the_catalogue_go_by_our_names() {
         ("Cr", "chromium"),
         ("Cu", "copper"),
         ("Cu_palik", "copper"),
+        ("Hg", "mercury"),
+        ("Mo", "molybdenum"),
+        ("Nb_palik", "niobium"),
         ("Ni_palik", "nickel"),
+        ("Rh", "rhodium"),
+        ("TiN_palik", "titanium nitride"),
+        ("V_palik", "vanadium"),
+        ("W", "tungsten"),
     ] {
         let scene =
             scene(&format!("<bsdf type='conductor'><string name='material' value='{theirs}'/></bsdf>"));
@@ -29,7 +36,7 @@ fn metals_of_the_catalogue_go_by_our_names() {
 
 #[test]
 fn a_metal_that_is_lacking_is_named_with_what_replaces_it() {
-    for (theirs, words) in [("TiN_palik", "has no measured values here"), ("unobtainium", "is not known")] {
+    for (theirs, words) in [("TiC_palik", "has no measured values here"), ("unobtainium", "is not known")] {
         let scene =
             scene(&format!("<bsdf type='conductor'>\n<string name='material' value='{theirs}'/></bsdf>"));
         let expected = format!("scene.xml:3:1: the metal '{theirs}' {words} and is replaced by aluminium");
