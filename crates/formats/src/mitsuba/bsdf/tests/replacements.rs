@@ -1,6 +1,7 @@
 //! What is not rendered as such.
 
 use super::*;
+use hyaline_math::float;
 
 #[test]
 fn a_finish_without_counterpart_is_matte_in_its_own_color_and_noted() {
@@ -38,8 +39,8 @@ fn wards_lobe_becomes_phongs_of_its_width() {
         panic!("no lobe")
     };
     // About the normal both fall to 1/e at tan θ = 0.2; about the mirror direction that is twice the angle.
-    let angle: f32 = 2.0 * 0.2f32.atan();
-    assert!((angle.cos().powf(exponent) * std::f32::consts::E - 1.0).abs() < 0.1, "{exponent}");
+    let angle = 2.0 * float::atan(0.2);
+    assert!((float::powf(float::cos(angle), exponent) * std::f32::consts::E - 1.0).abs() < 0.1, "{exponent}");
     assert_eq!(scene.notes.len(), 1);
 }
 
