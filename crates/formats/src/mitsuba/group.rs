@@ -11,7 +11,9 @@ use hyaline_math::Transform;
 use std::collections::BTreeMap;
 
 /// Most objects of a scene: instances can ask for the square of what a file could spell out.
-const MAX_OBJECTS: usize = 1 << 20;
+///
+/// Tests have a smaller one, which they reach sooner.
+const MAX_OBJECTS: usize = if cfg!(test) { 1 << 12 } else { 1 << 20 };
 
 /// The members of groups that were read.
 pub(super) type Groups = BTreeMap<usize, Vec<Built>>;

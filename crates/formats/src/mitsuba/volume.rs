@@ -47,10 +47,17 @@ impl Volume {
     }
 }
 
-/// Extinction and what becomes of it, before `scale`.
-struct Coefficients {
-    sigma_t: Field,
-    albedo: Field,
+/// What a medium says of its coefficients, before `scale`.
+enum Coefficients {
+    /// Absorption and scattering, each by itself.
+    Apart(Rgb, Rgb),
+    /// Extinction, and the share of it that scatters.
+    Together {
+        /// Extinction coefficient.
+        sigma_t: Field,
+        /// Albedo, 0…1.
+        albedo: Field,
+    },
 }
 
 impl Importer<'_> {
@@ -65,13 +72,21 @@ impl Importer<'_> {
         medium.ignore(&["method", "step_size", "strategy", "sample_emitters", "has_spectral_extinction"]);
         medium.ignore(&["max_density", "majorant_resolution_factor", "majorant_factor"]);
         let scale = medium.float("scale", 1.0, Limits::NOT_NEGATIVE)? as f32;
-        let Coefficients { sigma_t, albedo } = self.coefficients(medium)?;
+        let coefficients = self.coefficients(medium)?;
         let phase = phase::read(medium)?;
         let emission = self.field(medium, "emission", Limits::NOT_NEGATIVE)?;
-        let (sigma_t, albedo, density) = resolve(medium, sigma_t, albedo);
+        let (sigma_a, sigma_s, density) = match coefficients {
+            Coefficients::Apart(sigma_a, sigma_s) => (sigma_a, sigma_s, None),
+            Coefficients::Together { sigma_t, albedo } => {
+                let (sigma_t, albedo, density) = resolve(medium, sigma_t, albedo);
+                let split = |share: &dyn Fn(f32) -> f32| -> Rgb {
+                    std::array::from_fn(|i| sigma_t[i] * share(albedo[i]))
+                };
+                (split(&|albedo| 1.0 - albedo), split(&|albedo| albedo), density)
+            }
+        };
+        let (sigma_a, sigma_s) = (sigma_a.map(|s| s * scale), sigma_s.map(|s| s * scale));
         let emission = constant_emission(medium, emission, density.as_ref());
-        let sigma_s: Rgb = std::array::from_fn(|i| sigma_t[i] * albedo[i] * scale);
-        let sigma_a: Rgb = std::array::from_fn(|i| sigma_t[i] * (1.0 - albedo[i]) * scale);
         if sigma_a.iter().chain(&sigma_s).any(|value| !value.is_finite()) {
             return Err(medium.error("the coefficients of the medium are too large"));
         }
@@ -88,7 +103,7 @@ impl Importer<'_> {
         let sigma_a = medium.color("sigma_a", Limits::NOT_NEGATIVE)?;
         let sigma_s = medium.color("sigma_s", Limits::NOT_NEGATIVE)?;
         if sigma_a.is_some() || sigma_s.is_some() {
-            return Ok(Coefficients::of(sigma_a.unwrap_or_default(), sigma_s.unwrap_or_default()));
+            return Ok(Coefficients::Apart(sigma_a.unwrap_or_default(), sigma_s.unwrap_or_default()));
         }
         let sigma_t = match self.field(medium, "sigma_t", Limits::NOT_NEGATIVE)? {
             None => self.field(medium, "density", Limits::NOT_NEGATIVE)?,
@@ -101,22 +116,14 @@ impl Importer<'_> {
         let name = material.as_ref().map(|name| name.as_str()).or(says_nothing.then_some("skin1"));
         if let Some(name) = name {
             if let Some((sigma_s, sigma_a)) = preset::coefficients(name) {
-                return Ok(Coefficients::of(sigma_a, sigma_s));
+                return Ok(Coefficients::Apart(sigma_a, sigma_s));
             }
             medium.warn(format!("the medium material '{name}' is not known; sigma_t and albedo count"));
         }
-        Ok(Coefficients {
+        Ok(Coefficients::Together {
             sigma_t: sigma_t.unwrap_or(Field::Constant([1.0; 3])),
             albedo: albedo.unwrap_or(Field::Constant([0.75; 3])),
         })
-    }
-}
-
-impl Coefficients {
-    fn of(sigma_a: Rgb, sigma_s: Rgb) -> Self {
-        let sigma_t: Rgb = std::array::from_fn(|i| sigma_a[i] + sigma_s[i]);
-        let albedo = std::array::from_fn(|i| if sigma_t[i] > 0.0 { sigma_s[i] / sigma_t[i] } else { 0.0 });
-        Self { sigma_t: Field::Constant(sigma_t), albedo: Field::Constant(albedo) }
     }
 }
 
