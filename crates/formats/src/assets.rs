@@ -1,8 +1,14 @@
-//! Meshes and images that a scene names, each read once.
+//! Meshes, images and grids that a scene names, each read once.
+//!
+//! Names are relative to the scene's folder or absolute, and may lead out of the folder: scenes share textures in
+//! folders beside them. Only regular files are opened, so that pipes and devices can't stall a load, and nothing of a
+//! file's content gets into a message but numbers and single words of meshes.
 
+use crate::grid::{BoxedGrid, read_raw, read_vol};
 use crate::image::Encoding;
+use crate::mesh::FileMesh;
 use crate::{Result, image, mesh};
-use hyaline_scene::{ImageData, MeshData, SceneError, Source};
+use hyaline_scene::{GridData, ImageData, MeshData, SceneError, Source};
 use std::cell::RefCell;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -12,26 +18,62 @@ use std::sync::Arc;
 type Images = BTreeMap<(PathBuf, Option<Encoding>), Arc<ImageData>>;
 
 /// Reader of the files beside a scene.
-///
-/// Names are relative to the scene's folder or absolute; they may lead out of the folder, but only to regular files
-/// that exist.
 #[derive(Debug)]
 pub(crate) struct Assets {
     base_dir: PathBuf,
+    /// Folders to look in before the scene's, the first of them first.
+    before: RefCell<Vec<PathBuf>>,
+    /// Folders to look in after the scene's.
+    after: RefCell<Vec<PathBuf>>,
     meshes: RefCell<BTreeMap<PathBuf, Arc<MeshData>>>,
+    parts: RefCell<BTreeMap<(PathBuf, u32), FileMesh>>,
     images: RefCell<Images>,
+    grids: RefCell<BTreeMap<PathBuf, Arc<BoxedGrid>>>,
 }
 
 impl Assets {
     /// Files beside a scene in `base_dir`.
     pub(crate) fn new(base_dir: &Path) -> Self {
-        let base_dir = base_dir.to_owned();
-        Self { base_dir, meshes: RefCell::default(), images: RefCell::default() }
+        Self {
+            base_dir: base_dir.to_owned(),
+            before: RefCell::default(),
+            after: RefCell::default(),
+            meshes: RefCell::default(),
+            parts: RefCell::default(),
+            images: RefCell::default(),
+            grids: RefCell::default(),
+        }
     }
 
-    /// The path that a name means.
+    /// The scene's folder.
+    pub(crate) fn base_dir(&self) -> &Path {
+        &self.base_dir
+    }
+
+    /// Looks in a folder before all others from now on.
+    pub(crate) fn look_first_in(&self, folder: PathBuf) {
+        self.before.borrow_mut().insert(0, folder);
+    }
+
+    /// Looks in a folder after all others from now on.
+    pub(crate) fn look_last_in(&self, folder: PathBuf) {
+        let mut after = self.after.borrow_mut();
+        if folder != self.base_dir && !after.contains(&folder) {
+            after.push(folder);
+        }
+    }
+
+    /// The path that a name means: in the first folder that has such a file, or else in the scene's.
     pub(crate) fn path(&self, name: &str) -> PathBuf {
-        self.base_dir.join(name)
+        let beside = self.base_dir.join(name);
+        let (before, after) = (self.before.borrow(), self.after.borrow());
+        if before.is_empty() && after.is_empty() {
+            return beside;
+        }
+        let others = before.iter().map(|folder| folder.join(name));
+        let mut candidates =
+            others.chain([beside.clone()]).chain(after.iter().map(|folder| folder.join(name)));
+        candidates.find(|path| path.exists()).unwrap_or(beside)
     }
 
     /// A mesh by its file's name, which was said at `source`.
@@ -44,8 +86,23 @@ impl Assets {
             return Ok(mesh.clone());
         }
         let bytes = read_file(source, name, &path)?;
-        let mesh = Arc::new(mesh::read(&path, &bytes).map_err(|error| place(error, source))?);
+        let mesh = Arc::new(mesh::read(&path, &bytes).map_err(|error| named_at(error, source))?);
         self.meshes.borrow_mut().insert(path, mesh.clone());
+        Ok(mesh)
+    }
+
+    /// One of the meshes of a `.serialized` file.
+    ///
+    /// # Errors
+    /// As for [`Self::mesh`]; the file has no mesh of this number.
+    pub(crate) fn serialized_mesh(&self, source: &Source, name: &str, index: u32) -> Result<FileMesh> {
+        let key = (self.path(name), index);
+        if let Some(mesh) = self.parts.borrow().get(&key) {
+            return Ok(mesh.clone());
+        }
+        let bytes = read_file(source, name, &key.0)?;
+        let mesh = mesh::read_serialized(&key.0, &bytes, index).map_err(|error| named_at(error, source))?;
+        self.parts.borrow_mut().insert(key, mesh.clone());
         Ok(mesh)
     }
 
@@ -64,15 +121,54 @@ impl Assets {
             return Ok(image.clone());
         }
         let bytes = read_file(source, name, &key.0)?;
-        let image = Arc::new(image::read(&key.0, &bytes, encoding).map_err(|error| place(error, source))?);
+        let image = Arc::new(image::read(&key.0, &bytes, encoding).map_err(|error| named_at(error, source))?);
         self.images.borrow_mut().insert(key, image.clone());
         Ok(image)
     }
+
+    /// A `.vol` file by its name, which was said at `source`.
+    ///
+    /// # Errors
+    /// The file can't be read, is no grid, or is damaged.
+    pub(crate) fn grid(&self, source: &Source, name: &str) -> Result<Arc<BoxedGrid>> {
+        let path = self.path(name);
+        if let Some(grid) = self.grids.borrow().get(&path) {
+            return Ok(grid.clone());
+        }
+        let bytes = read_file(source, name, &path)?;
+        let grid = Arc::new(read_vol(&bytes).map_err(|message| in_file(&path, message, source))?);
+        self.grids.borrow_mut().insert(path, grid.clone());
+        Ok(grid)
+    }
+
+    /// A file of bare `f32` by its name, which was said at `source`.
+    ///
+    /// # Errors
+    /// The file can't be read or holds anything but that many values.
+    pub(crate) fn raw_grid(
+        &self,
+        source: &Source,
+        name: &str,
+        size: [u32; 3],
+        channels: u32,
+    ) -> Result<GridData> {
+        let path = self.path(name);
+        let bytes = read_file(source, name, &path)?;
+        read_raw(&bytes, size, channels).map_err(|message| in_file(&path, message, source))
+    }
 }
 
-/// Gives a fault without a place the place where the file was named.
-fn place(mut error: SceneError, source: &Source) -> SceneError {
-    error.source.get_or_insert_with(|| source.clone());
+/// A fault of a file as a whole.
+fn in_file(path: &Path, message: String, source: &Source) -> SceneError {
+    named_at(SceneError::at(&Source::file(path.display().to_string()), message), source)
+}
+
+/// Adds to a fault within a file where the file was named.
+fn named_at(mut error: SceneError, source: &Source) -> SceneError {
+    match &error.source {
+        None => error.source = Some(source.clone()),
+        Some(_) => error.message += &format!(" (the file is named at {source})"),
+    }
     error
 }
 

@@ -18,6 +18,7 @@
 
 mod assets;
 mod color;
+mod grid;
 mod image;
 mod limits;
 mod mesh;
@@ -99,7 +100,7 @@ pub fn load_mitsuba_text(
     mitsuba::read(text, &Arc::from(file_name), base_dir, overrides)
 }
 
-/// Reads a mesh file (`.ply`, `.obj`).
+/// Reads a mesh file (`.ply`, `.obj`; of a `.serialized` file the first mesh).
 ///
 /// # Errors
 /// It can't be read, is damaged or empty: with the line, or the offset in bytes where it is binary.

@@ -1,6 +1,10 @@
 //! Thousands of damaged files: every one gives a scene or an error, none a panic, none takes long.
 
+use flate2::Compression;
+use flate2::write::ZlibEncoder;
 use hyaline_formats::{image_from_bytes, load_mitsuba_text, load_toml_text, mesh_from_bytes};
+use std::fs;
+use std::io::Write;
 use std::path::Path;
 use std::time::Instant;
 
@@ -8,6 +12,7 @@ const TOML: &str = include_str!("scenes/everything.toml");
 const XML: &str = include_str!("scenes/everything.xml");
 const TOML_FINISHES: &str = include_str!("scenes/finishes.toml");
 const XML_FINISHES: &str = include_str!("scenes/finishes.xml");
+const OLDER_XML: &str = include_str!("scenes/older.xml");
 
 /// Damaged variants of each file.
 const ROUNDS: u32 = 8000;
@@ -163,6 +168,100 @@ fn damaged_mitsuba_scenes_are_survived() {
         let accepted = feed(scene.as_bytes(), 3, rounds, read);
         assert!(accepted > 0 && accepted < rounds, "{accepted}");
     }
+}
+
+/// A folder with the files that the older scene names.
+fn folder() -> tempfile::TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    let write = |name: &str, bytes: &[u8]| fs::write(folder.path().join(name), bytes).unwrap();
+    write("a.obj", b"v 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl m0\nf 1 2 3\nusemtl m1\nf 3 2 1\n");
+    write("a.serialized", &serialized(&serialized_content()));
+    write("a.vol", &vol());
+    let mut sky = b"Pf 1 1 -1.0\n".to_vec();
+    sky.extend(2f32.to_le_bytes());
+    write("a.pfm", &sky);
+    write("a.spd", b"# nm, value\n400 0.5\n700 1\n");
+    write("part.xml", b"<shape type='sphere' id='included'><float name='radius' value='$n'/></shape>");
+    folder
+}
+
+#[test]
+fn damaged_older_mitsuba_scenes_are_survived() {
+    let folder = folder();
+    let read = |bytes: &[u8]| {
+        let text = String::from_utf8_lossy(bytes);
+        load_mitsuba_text(&text, "a.xml", folder.path(), &[]).is_ok()
+    };
+    let sound = load_mitsuba_text(OLDER_XML, "a.xml", folder.path(), &[]).unwrap();
+    assert_eq!((sound.objects.len(), sound.lights.len()), (11, 6), "the sound scene is read as a whole");
+    let accepted = feed(OLDER_XML.as_bytes(), 11, ROUNDS, read);
+    assert!(accepted > 0 && accepted < ROUNDS, "{accepted}");
+}
+
+#[test]
+fn damaged_includes_are_survived() {
+    let folder = folder();
+    let part = b"<scene version='3.0.0'><default name='b' value='$n$n'/><include filename='part.xml'/>\
+                 <shape type='sphere' id='s'/><alias id='s' as='t'/><path value='..'/>\
+                 <shape type='instance'><ref id='t'/></shape></scene>";
+    let text = "<scene version='3.0.0'><default name='n' value='2'/><sensor type='perspective'/>\
+                <shape type='cube'/><include filename='part.xml'/></scene>";
+    let accepted = feed(part, 12, ROUNDS / 4, |bytes| {
+        fs::write(folder.path().join("part.xml"), bytes).unwrap();
+        load_mitsuba_text(text, "a.xml", folder.path(), &[]).is_ok()
+    });
+    assert!(accepted < ROUNDS / 4, "{accepted}");
+}
+
+/// A mesh of a `.serialized` file before it is compressed.
+fn serialized_content() -> Vec<u8> {
+    let mut content = b"name\0".to_vec();
+    content.extend(0x100bu32.to_le_bytes());
+    content.extend([3u64, 1].iter().flat_map(|n| n.to_le_bytes()));
+    (0..9 + 9 + 6 + 9).for_each(|i| content.extend((i as f32 * 0.25).to_le_bytes()));
+    content.extend([0u32, 1, 2].iter().flat_map(|n| n.to_le_bytes()));
+    content
+}
+
+/// A `.serialized` file of one mesh.
+fn serialized(content: &[u8]) -> Vec<u8> {
+    let mut bytes = vec![0x1c, 0x04, 4, 0];
+    let mut encoder = ZlibEncoder::new(&mut bytes, Compression::fast());
+    encoder.write_all(content).unwrap();
+    encoder.finish().unwrap();
+    bytes.extend(0u64.to_le_bytes());
+    bytes.extend(1u32.to_le_bytes());
+    bytes
+}
+
+#[test]
+fn damaged_serialized_meshes_are_survived() {
+    let read = |bytes: &[u8]| mesh_from_bytes(bytes, "a.serialized").is_ok();
+    let content = serialized_content();
+    feed_file(&serialized(&content), 13, read);
+    feed_file(&content, 14, |content| read(&serialized(content)));
+}
+
+/// A grid of bytes.
+fn vol() -> Vec<u8> {
+    let mut bytes = b"VOL\x03".to_vec();
+    bytes.extend([3u32, 2, 2, 2, 1].iter().flat_map(|n| n.to_le_bytes()));
+    bytes.extend([0f32, 0.0, 0.0, 1.0, 1.0, 1.0].iter().flat_map(|n| n.to_le_bytes()));
+    bytes.extend(0..8u8);
+    bytes
+}
+
+#[test]
+fn damaged_grids_are_survived() {
+    let folder = folder();
+    let text = "camera = { from = [0, 0, 4] }\nobject = { kind = 'sphere', medium = 'm' }\n\
+                [media.m]\nsigma_s = 1\ngrid = { file = 'a.vol' }\n";
+    let read = |bytes: &[u8]| {
+        fs::write(folder.path().join("a.vol"), bytes).unwrap();
+        load_toml_text(text, "a.toml", folder.path(), &[]).is_ok()
+    };
+    assert!(read(&vol()));
+    assert!(feed(&vol(), 15, ROUNDS / 4, read) < ROUNDS / 4);
 }
 
 /// A ball of quadrilaterals, ascii or binary.

@@ -1,8 +1,10 @@
 //! A plugin of the tree, with access to its values and to the plugins within it.
 
+use super::names::SPECTRUM_KINDS;
 use super::notes::Notes;
-use super::transform;
+use super::spectrum::Meaning;
 use super::tree::{Child, Plugin, Property, Target, Tree};
+use super::{spectrum_plugin as spectrum, transform};
 use crate::Result;
 use crate::limits::Limits;
 use hyaline_math::{DVec3, Transform};
@@ -59,6 +61,16 @@ impl<'a> Element<'a> {
         SceneError::at(self.source(), message)
     }
 
+    /// What tells this plugin from all others.
+    pub(super) fn key(&self) -> usize {
+        std::ptr::from_ref(self.plugin) as usize
+    }
+
+    /// Adds a remark about this element.
+    pub(super) fn info(&self, message: impl Into<String>) {
+        self.notes.info(self.source(), message);
+    }
+
     /// Adds a warning about this element.
     pub(super) fn warn(&self, message: impl Into<String>) {
         self.notes.warn(self.source(), message);
@@ -111,8 +123,8 @@ impl<'a> Element<'a> {
     pub(super) fn boolean(&self, name: &str, default: bool) -> Result<bool> {
         let Some(property) = self.property(name) else { return Ok(default) };
         match property.value()?.trim() {
-            "true" | "True" => Ok(true),
-            "false" | "False" => Ok(false),
+            text if text.eq_ignore_ascii_case("true") => Ok(true),
+            text if text.eq_ignore_ascii_case("false") => Ok(false),
             other => Err(property.error(format!("`{name}` must be true or false, not '{other}'"))),
         }
     }
@@ -123,18 +135,35 @@ impl<'a> Element<'a> {
         Ok(Some(Located::new(property.value()?.to_owned(), property.source.clone())))
     }
 
-    /// A color within limits, if it is there.
+    /// A color within limits, if it is there: a value, or a plugin that is one color.
     pub(super) fn color(&self, name: &str, limits: Limits) -> Result<Option<Rgb>> {
-        let Some(property) = self.property(name) else { return Ok(None) };
-        let (color, is_mean) = property.color()?;
-        if is_mean {
-            let message = format!("the spectrum `{name}` of {} is replaced by its mean", self.title());
-            self.notes.warn(&property.source, message);
-        }
+        let meaning = if self.plugin.tag == "emitter" { Meaning::Light } else { Meaning::Factor };
+        let (color, source) = match self.property(name) {
+            Some(property) => (property.color(meaning)?, &property.source),
+            None => match self.spectrum_child(name)? {
+                Some(spectrum) => (spectrum::read(spectrum, meaning)?, spectrum.source()),
+                None => return Ok(None),
+            },
+        };
         match color.iter().find(|value| !limits.contain(f64::from(**value))) {
             None => Ok(Some(color)),
-            Some(bad) => Err(property.error(format!("`{name}` must be {}, not {bad}", limits.words()))),
+            Some(bad) => {
+                let message = format!("`{name}` must be {}, not {bad}", limits.words());
+                Err(SceneError::at(source, message))
+            }
         }
+    }
+
+    /// The plugin under `name` if it is a single color.
+    fn spectrum_child(&self, name: &str) -> Result<Option<Element<'a>>> {
+        for child in self.plugin.children.iter().filter(|child| child.name.as_deref() == Some(name)) {
+            let plugin = self.resolve(child)?;
+            if plugin.tag == "texture" && SPECTRUM_KINDS.contains(&plugin.kind.as_str()) {
+                child.used.set(true);
+                return Ok(Some(Self::visit(self.tree, plugin, self.notes)));
+            }
+        }
+        Ok(None)
     }
 
     /// A point or vector, if it is there.
@@ -144,7 +173,12 @@ impl<'a> Element<'a> {
 
     /// A transform; the identity where there is none.
     pub(super) fn transform(&self, name: &str) -> Result<Transform> {
-        self.property(name).map_or(Ok(Transform::IDENTITY), transform::read)
+        let Some(property) = self.property(name) else { return Ok(Transform::IDENTITY) };
+        if property.tag == "animation" {
+            let message = "an animation is not supported; its first transform counts";
+            self.notes.warn(&property.source, message);
+        }
+        transform::read(property)
     }
 
     /// The plugins within this one, of one tag, with the names under which they are used.
@@ -158,6 +192,16 @@ impl<'a> Element<'a> {
             }
         }
         Ok(found)
+    }
+
+    /// Whether there is a plugin of a tag within this one; does not count as asking for it.
+    pub(super) fn has_child(&self, tag: &str) -> Result<bool> {
+        for child in &self.plugin.children {
+            if self.resolve(child)?.tag == tag {
+                return Ok(true);
+            }
+        }
+        Ok(false)
     }
 
     /// Takes note of the plugins of a tag within this one without reading them.

@@ -2,55 +2,46 @@
 
 use super::element::Element;
 use super::importer::Importer;
+use super::sensor::camera_placement;
 use crate::Result;
 use crate::limits::Limits;
 use hyaline_math::{DVec3, Transform};
 use hyaline_scene::{
-    Emission, EmissionQuantity, LightDescription, LightKind, Located, Rgb, SpotFalloff, TextureDescription,
-    TextureKind,
+    ColorSource, Emission, EmissionQuantity, ImageData, LightDescription, LightKind, Located, Rgb,
+    SpotFalloff, TextureDescription, TextureKind,
 };
+use std::sync::Arc;
+
+/// What says how often a light is sampled, not what it is.
+pub(super) const WITHOUT_EFFECT: [&str; 4] = ["sampling_weight", "samples", "mis_compensation", "cache"];
 
 impl Importer<'_> {
     /// Reads an emitter that is not part of a shape.
     pub(super) fn emitter(&mut self, emitter: Element<'_>) -> Result<()> {
-        emitter.ignore(&["sampling_weight", "samples"]);
+        emitter.ignore(&WITHOUT_EFFECT);
         let kind = match emitter.kind() {
-            "constant" => LightKind::Environment {
-                radiance: scaled(emitter, "radiance")?,
+            // Described for shapes to refer to.
+            "area" => return Ok(()),
+            "constant" => Some(LightKind::Environment {
+                radiance: scaled(emitter, &["radiance", "intensity"])?,
                 image: None,
                 placement: Transform::IDENTITY,
                 visible_to_camera: true,
-            },
-            "envmap" => match self.environment(emitter)? {
-                Some(kind) => kind,
-                None => return Ok(()),
-            },
-            "point" => {
-                let position = match emitter.point("position")? {
-                    Some(position) => position,
-                    None => emitter.transform("to_world")?.translation(),
-                };
-                LightKind::Point { position, intensity: scaled(emitter, "intensity")? }
-            }
-            "spot" => spot(emitter)?,
-            "directional" => {
-                let direction = match emitter.point("direction")? {
-                    Some(direction) => direction,
-                    None => emitter.transform("to_world")?.vector(DVec3::Z),
-                };
-                if direction.try_normalize().is_none() {
-                    return Err(emitter.error("`direction` must not be zero"));
-                }
-                LightKind::Directional { direction, irradiance: scaled(emitter, "irradiance")? }
-            }
+            }),
+            "envmap" => self.environment(emitter)?,
+            "point" => Some(point(emitter)?),
+            "spot" => Some(spot(emitter)?),
+            "directional" => Some(directional(emitter)?),
+            "projector" => Some(self.projector(emitter)?),
             _ => {
                 emitter.warn(format!("{} is not supported and left out", emitter.title()));
                 emitter.ignore_all();
-                return Ok(());
+                None
             }
         };
+        let Some(kind) = kind else { return Ok(()) };
         let name = emitter.id().map_or_else(|| emitter.kind().to_owned(), str::to_owned);
-        let name = self.object_name(name);
+        let name = self.names.unique(name);
         let medium = match emitter.child("medium")? {
             Some(medium) => {
                 let volume = self.volume(medium, &name)?;
@@ -67,14 +58,11 @@ impl Importer<'_> {
     fn environment(&mut self, emitter: Element<'_>) -> Result<Option<LightKind>> {
         let scale = emitter.float("scale", 1.0, Limits::NOT_NEGATIVE)? as f32;
         let to_world = emitter.transform("to_world")?;
-        emitter.ignore(&["mis_compensation"]);
         let Some(image) = self.bitmap(emitter)? else {
             emitter.warn("an environment without its image is left out");
             return Ok(None);
         };
-        let name = self.object_name(emitter.id().unwrap_or("envmap").to_owned()) + "/image";
-        let texture = TextureDescription::new(name.clone(), TextureKind::Image(image));
-        self.scene.textures.push(Located::new(texture, emitter.source().clone()));
+        let image = self.image_of(emitter, image);
         let turned = Transform::from_parts(to_world.linear(), DVec3::ZERO);
         let half_turn = Transform::rotate(DVec3::Y, std::f64::consts::PI);
         let (Some(turned), Some(half_turn)) = (turned, half_turn) else {
@@ -82,32 +70,92 @@ impl Importer<'_> {
         };
         Ok(Some(LightKind::Environment {
             radiance: [scale; 3],
-            image: Some(Located::new(name, emitter.source().clone())),
+            image: Some(image),
             placement: half_turn.after(&turned.inverse()),
             visible_to_camera: true,
         }))
     }
+
+    /// Adds an image that a light takes as it is, without the coordinates of a surface.
+    fn image_of(&mut self, emitter: Element<'_>, image: Arc<ImageData>) -> Located<String> {
+        let mut name = format!("{}/image", emitter.id().unwrap_or(emitter.kind()));
+        while self.scene.textures.iter().any(|texture| texture.name == name) {
+            name.push('\'');
+        }
+        let texture = TextureDescription::new(name.clone(), TextureKind::Image(image));
+        self.scene.textures.push(Located::new(texture, emitter.source().clone()));
+        Located::new(name, emitter.source().clone())
+    }
+
+    /// Mitsuba's value is the radiance that a white matte plane shows: an irradiance π times as large.
+    fn projector(&mut self, emitter: Element<'_>) -> Result<LightKind> {
+        let (mut color, mut image, mut aspect) = (scaled(emitter, &["irradiance"])?, None, 1.0);
+        if let Some(texture) = emitter.child_named("texture", "irradiance")? {
+            if texture.kind() == "bitmap" {
+                if let Some(pixels) = self.bitmap(texture)? {
+                    aspect = f64::from(pixels.width) / f64::from(pixels.height);
+                    image = Some(self.image_of(emitter, pixels));
+                }
+            } else {
+                match self.texture(texture)? {
+                    ColorSource::Texture(name) => image = Some(name),
+                    ColorSource::Constant(grey) => color = std::array::from_fn(|i| color[i] * grey[i]),
+                }
+            }
+        }
+        let (fov, axis) = super::sensor::field_of_view(emitter)?;
+        Ok(LightKind::Projector {
+            placement: camera_placement(emitter, &emitter.transform("to_world")?)?,
+            fov: super::sensor::across_width(fov, axis, aspect),
+            image,
+            irradiance: color.map(|value| value * std::f32::consts::PI),
+        })
+    }
+
+    /// What a shape with this emitter sends out.
+    pub(super) fn area(&mut self, emitter: Element<'_>) -> Result<Option<Emission>> {
+        emitter.ignore(&WITHOUT_EFFECT);
+        if emitter.kind() != "area" {
+            emitter.warn(format!("{} in a shape is not supported and left out", emitter.title()));
+            emitter.ignore_all();
+            return Ok(None);
+        }
+        let mut color = scaled(emitter, &["radiance", "intensity"])?;
+        let mut texture = None;
+        if let Some(element) = emitter.child_named("texture", "radiance")? {
+            match self.texture(element)? {
+                ColorSource::Texture(name) => texture = Some(name),
+                ColorSource::Constant(grey) => color = std::array::from_fn(|i| color[i] * grey[i]),
+            }
+        }
+        Ok(Some(Emission {
+            color,
+            quantity: EmissionQuantity::Radiance,
+            two_sided: false,
+            visible_to_camera: true,
+            texture,
+            medium: None,
+        }))
+    }
 }
 
-/// What a shape with this emitter sends out.
-pub(super) fn area(emitter: Element<'_>) -> Result<Option<Emission>> {
-    emitter.ignore(&["sampling_weight", "samples"]);
-    if emitter.kind() != "area" {
-        emitter.warn(format!("{} in a shape is not supported and left out", emitter.title()));
-        emitter.ignore_all();
-        return Ok(None);
+fn point(emitter: Element<'_>) -> Result<LightKind> {
+    let position = match emitter.point("position")? {
+        Some(position) => position,
+        None => emitter.transform("to_world")?.translation(),
+    };
+    Ok(LightKind::Point { position, intensity: scaled(emitter, &["intensity"])? })
+}
+
+fn directional(emitter: Element<'_>) -> Result<LightKind> {
+    let direction = match emitter.point("direction")? {
+        Some(direction) => direction,
+        None => emitter.transform("to_world")?.vector(DVec3::Z),
+    };
+    if direction.try_normalize().is_none() {
+        return Err(emitter.error("`direction` must not be zero"));
     }
-    if emitter.child_named("texture", "radiance")?.is_some() {
-        emitter.warn("a texture of radiance is replaced by 1");
-    }
-    Ok(Some(Emission {
-        color: scaled(emitter, "radiance")?,
-        quantity: EmissionQuantity::Radiance,
-        two_sided: false,
-        visible_to_camera: true,
-        texture: None,
-        medium: None,
-    }))
+    Ok(LightKind::Directional { direction, irradiance: scaled(emitter, &["irradiance", "intensity"])? })
 }
 
 fn spot(emitter: Element<'_>) -> Result<LightKind> {
@@ -120,19 +168,23 @@ fn spot(emitter: Element<'_>) -> Result<LightKind> {
     Ok(LightKind::Spot {
         position: to_world.translation(),
         direction: to_world.vector(DVec3::Z),
-        intensity: scaled(emitter, "intensity")?,
+        intensity: scaled(emitter, &["intensity"])?,
         outer_angle: cutoff.to_radians(),
         inner_angle: beam.min(cutoff).to_radians(),
         falloff: SpotFalloff::LinearInAngle,
     })
 }
 
-/// A color, by default 1, times `scale`.
-fn scaled(emitter: Element<'_>, name: &str) -> Result<Rgb> {
+/// A color by the first of some names that is there, by default 1, times `scale`.
+fn scaled(emitter: Element<'_>, names: &[&str]) -> Result<Rgb> {
     let scale = emitter.float("scale", 1.0, Limits::NOT_NEGATIVE)? as f32;
-    let color = emitter.color(name, Limits::NOT_NEGATIVE)?.unwrap_or([1.0; 3]).map(|value| value * scale);
+    let mut color = None;
+    for name in names {
+        color = color.map_or_else(|| emitter.color(name, Limits::NOT_NEGATIVE), |color| Ok(Some(color)))?;
+    }
+    let color = color.unwrap_or([1.0; 3]).map(|value| value * scale);
     match color.iter().all(|value| value.is_finite()) {
         true => Ok(color),
-        false => Err(emitter.error(format!("`{name}` is too large"))),
+        false => Err(emitter.error(format!("`{}` is too large", names[0]))),
     }
 }

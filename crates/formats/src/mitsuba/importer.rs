@@ -1,14 +1,18 @@
 //! The import as a whole: shapes, lights, cameras, and what every scene needs.
 
 use super::element::{Element, warn_of_leftovers};
-use super::media::Media;
+use super::group::Groups;
+use super::media::{Later, Media};
+use super::mesh::ChangedMeshes;
 use super::notes::Notes;
+use super::object_names::ObjectNames;
 use super::tree::Tree;
 use crate::Result;
 use crate::assets::Assets;
 use crate::own::add_material;
 use hyaline_scene::{
-    FileIntegrator, Located, MaterialDescription, MaterialKind, SceneDescription, SceneError, Source,
+    FileIntegrator, LightKind, Located, MaterialDescription, MaterialKind, SceneDescription, SceneError,
+    Source,
 };
 
 /// Builds a description from a tree.
@@ -25,6 +29,16 @@ pub(super) struct Importer<'a> {
     pub(super) world_is_vacuum: bool,
     /// Whether the file is of version 0.5 or 0.6, whose defaults differ.
     pub(super) is_old: bool,
+    /// Index of what fills the world.
+    pub(super) world_index: f64,
+    /// Media of objects that are settled once all shapes are read.
+    pub(super) later: Vec<(usize, Later)>,
+    /// Members of shape groups.
+    pub(super) groups: Groups,
+    /// Meshes that were changed after reading.
+    pub(super) meshes: ChangedMeshes,
+    /// Names of objects and lights.
+    pub(super) names: ObjectNames,
 }
 
 impl<'a> Importer<'a> {
@@ -37,6 +51,11 @@ impl<'a> Importer<'a> {
             media: Media::default(),
             world_is_vacuum: false,
             is_old: false,
+            world_index: 1.0,
+            later: Vec::new(),
+            groups: Groups::default(),
+            meshes: ChangedMeshes::default(),
+            names: ObjectNames::default(),
         }
     }
 
@@ -50,6 +69,8 @@ impl<'a> Importer<'a> {
         for (_, shape) in root.children("shape")? {
             self.shape(shape)?;
         }
+        self.settle_surrounding(root.source());
+        self.settle_media();
         for (_, emitter) in root.children("emitter")? {
             self.emitter(emitter)?;
         }
@@ -62,7 +83,6 @@ impl<'a> Importer<'a> {
         for tag in ["bsdf", "texture", "medium", "film", "sampler", "rfilter", "phase"] {
             root.mark_described(tag)?;
         }
-        self.settle_surrounding();
         if self.scene.cameras.is_empty() {
             let error = SceneError::at(root.source(), "the scene has no camera");
             return Err(error.with_remedy("add <sensor type=\"perspective\">"));
@@ -88,6 +108,9 @@ impl<'a> Importer<'a> {
             }
         }
         let max_depth = integrator.integer("max_depth")?.and_then(|depth| u32::try_from(depth).ok());
+        if integrator.boolean("hide_emitters", false)? {
+            self.hide_emitters();
+        }
         outer.ignore_all();
         integrator.ignore_all();
         let spp = self.scene.settings.file_integrator.as_ref().and_then(|sampled| sampled.spp);
@@ -96,21 +119,16 @@ impl<'a> Importer<'a> {
         Ok(())
     }
 
-    /// A name that no object has: the wanted one, or that with a number.
-    pub(super) fn object_name(&self, wanted: String) -> String {
-        let is_taken = |name: &str| {
-            let objects = self.scene.objects.iter().map(|object| object.name.as_str());
-            objects
-                .chain(self.scene.lights.iter().map(|light| light.name.as_str()))
-                .any(|other| other == name)
-        };
-        let mut name = wanted.clone();
-        let mut count = 1;
-        while is_taken(&name) {
-            count += 1;
-            name = format!("{wanted} ({count})");
+    /// Takes lamps and surroundings from the sight of the camera.
+    fn hide_emitters(&mut self) {
+        for emission in self.scene.objects.iter_mut().filter_map(|object| object.emission.as_mut()) {
+            emission.visible_to_camera = false;
         }
-        name
+        for light in &mut self.scene.lights {
+            if let LightKind::Environment { visible_to_camera, .. } = &mut light.kind {
+                *visible_to_camera = false;
+            }
+        }
     }
 
     /// Adds a material; returns its name.

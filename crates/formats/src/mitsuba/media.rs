@@ -1,44 +1,55 @@
 //! Media: volumes of the file joined with indices of refraction.
+//!
+//! A dielectric boundary says the index on each of its sides, so its media are settled as it is read. What says no
+//! index (a boundary without refraction, a lamp, a light, a camera) waits until all shapes are read and takes the one
+//! that its volume has elsewhere.
 
 use super::element::Element;
 use super::importer::Importer;
+use super::volume::Volume;
 use crate::Result;
-use crate::limits::Limits;
-use hyaline_scene::{
-    Absorption, IndexDescription, Located, MediumDescription, PhaseDescription, Rgb, Scattering, Source,
-};
-
-/// A volume of the file: what it swallows and scatters, without an index.
-#[derive(Clone, Debug)]
-pub(super) struct Volume {
-    name: String,
-    absorption: Absorption,
-    scattering: Option<Scattering>,
-}
+use hyaline_scene::{BoundaryDescription, IndexDescription, Located, MediumDescription, Source};
+use std::collections::BTreeMap;
 
 /// The media made so far.
 #[derive(Debug, Default)]
 pub(super) struct Media {
     volumes: Vec<Volume>,
+    /// Which volume each element of the file became.
+    read: BTreeMap<usize, Option<usize>>,
     made: Vec<(Option<usize>, f64, String)>,
+}
+
+/// Media that are settled once all shapes are read.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Later {
+    /// Of a boundary that does not refract: volumes on the side that normals point away from, and to.
+    Sides(Option<usize>, Option<usize>),
+    /// Of a lamp: the volume that it shines into.
+    Lamp(Option<usize>),
+}
+
+/// Whether an index is that of air or of vacuum.
+fn is_airy(index: f64) -> bool {
+    (1.0..1.001).contains(&index)
 }
 
 impl Importer<'_> {
     /// Number of a volume; those of equal content are one.
     pub(super) fn volume(&mut self, element: Element<'_>, owner: &str) -> Result<Option<usize>> {
-        if element.kind() != "homogeneous" {
-            element.warn(format!("{} can't be read; it is taken as empty", element.title()));
-            element.ignore_all();
-            return Ok(None);
-        }
-        let (absorption, scattering) = coefficients(element)?;
-        let same = |volume: &Volume| volume.absorption == absorption && volume.scattering == scattering;
-        if let Some(index) = self.media.volumes.iter().position(same) {
-            return Ok(Some(index));
+        if let Some(known) = self.media.read.get(&element.key()) {
+            return Ok(*known);
         }
         let name = element.id().map_or_else(|| format!("{owner}/medium"), str::to_owned);
-        self.media.volumes.push(Volume { name, absorption, scattering });
-        Ok(Some(self.media.volumes.len() - 1))
+        let index = self.read_volume(element, name)?.map(|volume| {
+            let volumes = &mut self.media.volumes;
+            volumes.iter().position(|known| known.is_like(&volume)).unwrap_or_else(|| {
+                volumes.push(volume);
+                volumes.len() - 1
+            })
+        });
+        self.media.read.insert(element.key(), index);
+        Ok(index)
     }
 
     /// Name of the medium of a side: its volume with its index. `None` is the world's: no volume, index 1.
@@ -55,21 +66,17 @@ impl Importer<'_> {
         if let Some((_, _, name)) = made {
             return Some(Located::new(name.clone(), source.clone()));
         }
-        let (base, absorption, scattering) = match volume.map(|volume| self.media.volumes[volume].clone()) {
-            Some(volume) => (volume.name, volume.absorption, volume.scattering),
-            None => (format!("index {index}"), Absorption::None, None),
-        };
-        let mut name = base.clone();
-        if self.scene.media.iter().any(|medium| medium.name == name) {
-            name = format!("{base} @ {index}");
-        }
-        while self.scene.media.iter().any(|medium| medium.name == name) {
+        let volume_described = volume.map(|volume| &self.media.volumes[volume]);
+        let base = volume_described.map_or_else(|| format!("index {index}"), |volume| volume.name.clone());
+        let is_taken = |name: &str| self.scene.media.iter().any(|medium| medium.name == name);
+        let mut name = if is_taken(&base) { format!("{base} @ {index}") } else { base };
+        while is_taken(&name) {
             name.push('\'');
         }
-        let medium = MediumDescription {
-            absorption,
-            scattering,
-            ..MediumDescription::clear(name.clone(), IndexDescription::Constant(index))
+        let clear = MediumDescription::clear(name.clone(), IndexDescription::Constant(index));
+        let medium = match volume_described {
+            Some(volume) => volume.with_index_of(clear),
+            None => clear,
         };
         self.scene.media.push(Located::new(medium, source.clone()));
         self.media.made.push((volume, index, name.clone()));
@@ -82,82 +89,65 @@ impl Importer<'_> {
         volume: Option<usize>,
         source: &Source,
     ) -> Option<Located<String>> {
-        let mut indices = self.media.made.iter().filter(|(v, _, _)| *v == volume).map(|(_, index, _)| *index);
-        let index = match (volume, indices.next(), indices.next()) {
-            (Some(_), Some(only), None) => only,
-            _ => 1.0,
-        };
+        let index = volume.and_then(|volume| self.only_index(volume)).unwrap_or(1.0);
         self.medium(volume, index, source)
     }
 
+    /// The index that a volume was used with, where it is but one.
+    fn only_index(&self, volume: usize) -> Option<f64> {
+        let mut indices =
+            self.media.made.iter().filter(|(v, _, _)| *v == Some(volume)).map(|(_, index, _)| *index);
+        match (indices.next(), indices.next()) {
+            (Some(only), None) => Some(only),
+            _ => None,
+        }
+    }
+
     /// The world is filled with air where boundaries say so and none says vacuum: 1.000277 is Mitsuba's default.
-    pub(super) fn settle_surrounding(&mut self) {
-        let is_air = |index: f64| index > 1.0 && index < 1.001;
-        let airs = self.media.made.iter().filter(|(volume, index, _)| volume.is_none() && is_air(*index));
-        let airs: Vec<&String> = airs.map(|(_, _, name)| name).collect();
+    pub(super) fn settle_surrounding(&mut self, source: &Source) {
+        let mut airs: Vec<f64> = self.media.made.iter().map(|(_, index, _)| *index).collect();
+        airs.retain(|index| is_airy(*index) && *index != 1.0);
+        airs.sort_by(f64::total_cmp);
+        airs.dedup();
         if let ([air], false) = (airs.as_slice(), self.world_is_vacuum) {
-            self.scene.surrounding = Some((*air).as_str().into());
+            self.scene.surrounding = self.medium(None, *air, source);
+            self.world_index = *air;
         }
     }
-}
 
-/// Absorption and scattering: `sigma_t` and `albedo`, or `sigma_a` and `sigma_s`; `scale` multiplies them.
-fn coefficients(element: Element<'_>) -> Result<(Absorption, Option<Scattering>)> {
-    let scale = element.float("scale", 1.0, Limits::NOT_NEGATIVE)? as f32;
-    let sigma_a = spectrum(element, "sigma_a", Limits::NOT_NEGATIVE)?;
-    let sigma_s = spectrum(element, "sigma_s", Limits::NOT_NEGATIVE)?;
-    let sigma_t = spectrum(element, "sigma_t", Limits::NOT_NEGATIVE)?;
-    let albedo = spectrum(element, "albedo", Limits::FRACTION)?;
-    if let Some(material) = element.string("material")? {
-        let message =
-            format!("the medium preset '{}' is not known; sigma_t and albedo count", material.value);
-        element.notes.warn(&material.source, message);
-    }
-    let (sigma_a, sigma_s) = if sigma_a.is_some() || sigma_s.is_some() {
-        (sigma_a.unwrap_or_default(), sigma_s.unwrap_or_default())
-    } else {
-        let (sigma_t, albedo) = (sigma_t.unwrap_or([1.0; 3]), albedo.unwrap_or([0.75; 3]));
-        let product = |factor: &dyn Fn(f32) -> f32| std::array::from_fn(|i| sigma_t[i] * factor(albedo[i]));
-        (product(&|albedo| 1.0 - albedo), product(&|albedo| albedo))
-    };
-    let (sigma_a, sigma_s) = (sigma_a.map(|s: f32| s * scale), sigma_s.map(|s: f32| s * scale));
-    if sigma_a.iter().chain(&sigma_s).any(|value| !value.is_finite()) {
-        return Err(element.error("the coefficients of the medium are too large"));
-    }
-    let g = phase(element)?;
-    let absorption = if sigma_a == [0.0; 3] { Absorption::None } else { Absorption::SigmaA(sigma_a) };
-    Ok((
-        absorption,
-        (sigma_s != [0.0; 3]).then_some(Scattering { sigma_s, phase: PhaseDescription::from_mean_cosine(g) }),
-    ))
-}
-
-/// A coefficient, which may be wrapped into a constant volume.
-fn spectrum(element: Element<'_>, name: &str, limits: Limits) -> Result<Option<Rgb>> {
-    if let Some(color) = element.color(name, limits)? {
-        return Ok(Some(color));
-    }
-    match element.child_named("texture", name)? {
-        Some(volume) if volume.kind() == "constvolume" => volume.color("value", limits),
-        Some(volume) => {
-            volume.ignore_all();
-            volume.warn(format!("`{name}` as {} can't be read; its default counts", volume.title()));
-            Ok(None)
+    /// Settles what waited for all shapes: where no index is said, both sides of a boundary have the same.
+    pub(super) fn settle_media(&mut self) {
+        for (object, later) in std::mem::take(&mut self.later) {
+            let source = self.scene.objects[object].source.clone();
+            match later {
+                Later::Sides(inside, outside) => {
+                    let index = self.common_index(inside, outside);
+                    let mut side = |volume: Option<usize>| match volume {
+                        None => None,
+                        volume => self.medium(volume, index, &source),
+                    };
+                    let (inside, outside) = (side(inside), side(outside));
+                    self.scene.objects[object].boundary = BoundaryDescription::Interface { outside, inside };
+                }
+                Later::Lamp(volume) => {
+                    let medium = self.medium_of_volume(volume, &source);
+                    if let Some(emission) = &mut self.scene.objects[object].emission {
+                        emission.medium = medium;
+                    }
+                }
+            }
         }
-        None => Ok(None),
     }
-}
 
-/// Mean cosine of the phase function.
-fn phase(element: Element<'_>) -> Result<f32> {
-    let Some(phase) = element.child("phase")? else { return Ok(0.0) };
-    match phase.kind() {
-        "hg" => Ok(phase.float("g", 0.8, Limits::inside(-1.0, 1.0))? as f32),
-        "isotropic" => Ok(0.0),
-        _ => {
-            phase.ignore_all();
-            phase.warn(format!("{} is replaced by an isotropic one", phase.title()));
-            Ok(0.0)
+    /// The index on both sides of a boundary that does not refract.
+    fn common_index(&self, inside: Option<usize>, outside: Option<usize>) -> f64 {
+        match (inside, outside) {
+            (Some(inside), Some(outside)) => {
+                let known = self.only_index(outside).or_else(|| self.only_index(inside));
+                known.unwrap_or(self.world_index)
+            }
+            // A side without a volume is the world's.
+            _ => self.world_index,
         }
     }
 }

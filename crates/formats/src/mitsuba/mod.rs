@@ -7,16 +7,29 @@
 mod bsdf;
 mod element;
 mod emitter;
+mod field;
+mod form;
+mod group;
 mod importer;
+mod include;
 mod media;
+mod mesh;
+mod names;
 mod notes;
+mod object_names;
+mod parameters;
 mod parse;
+mod phase;
+mod preset;
 mod sensor;
 mod shape;
+mod spectrum;
+mod spectrum_plugin;
 mod texture;
 mod transform;
 mod tree;
 mod value;
+mod volume;
 
 #[cfg(test)]
 mod fault_tests;
@@ -41,8 +54,9 @@ pub(crate) fn read(
     overrides: &[(String, String)],
 ) -> Result<SceneDescription> {
     let assets = Assets::new(base_dir);
-    let tree = parse::parse(text, file, &assets)?;
+    let (parameters, overrides) = parameters::Parameters::from_overrides(overrides);
+    let tree = parse::parse(text, file, &assets, parameters)?;
     let mut scene = importer::Importer::new(&tree, &assets).read()?;
-    override_imported(&mut scene, overrides)?;
+    override_imported(&mut scene, &overrides)?;
     Ok(scene)
 }

@@ -1,11 +1,14 @@
 //! From XML to a tree of elements: parameters replaced, includes read, names in their present form.
 //!
 //! Elements with a `type` (shape, bsdf, ...) are plugins, the others properties of the plugin around them. DTDs and
-//! with them entities are refused; includes and nesting are limited.
+//! with them entities are refused, so that none can be blown up; the number of elements and their nesting are limited.
 
+use super::include::Includes;
+use super::names::{PLUGIN_TAGS, PROPERTY_TAGS, present_name, present_tag};
+use super::parameters::Parameters;
 use super::tree::{Child, Plugin, Property, Target, Tree};
 use crate::Result;
-use crate::assets::{Assets, read_file};
+use crate::assets::Assets;
 use crate::place::Places;
 use hyaline_scene::{SceneError, Source};
 use std::cell::Cell;
@@ -14,63 +17,46 @@ use std::sync::Arc;
 
 /// Deepest nesting of elements.
 const MAX_DEPTH: usize = 32;
-/// Most elements in a file.
+/// Most elements, attributes and texts in all files together.
 const MAX_NODES: u32 = 4_000_000;
-/// Most files that a scene may include, one another's includes among them.
-const MAX_INCLUDES: usize = 64;
-
-/// Elements that hold properties of their own.
-const PLUGIN_TAGS: [&str; 12] = [
-    "scene",
-    "integrator",
-    "sensor",
-    "sampler",
-    "film",
-    "rfilter",
-    "shape",
-    "bsdf",
-    "texture",
-    "medium",
-    "phase",
-    "emitter",
-];
-/// Elements that are a value.
-const PROPERTY_TAGS: [&str; 10] =
-    ["float", "integer", "boolean", "string", "rgb", "srgb", "spectrum", "point", "vector", "transform"];
 
 /// Parses a scene file.
 ///
 /// # Errors
 /// XML that is not well-formed, parameters and includes that are not there, two plugins of one id.
-pub(super) fn parse(text: &str, file: &Arc<str>, assets: &Assets) -> Result<Tree> {
+pub(super) fn parse(text: &str, file: &Arc<str>, assets: &Assets, parameters: Parameters) -> Result<Tree> {
     let mut builder = Builder {
         tree: Tree { plugins: Vec::new(), ids: BTreeMap::new(), strange: Vec::new() },
-        parameters: BTreeMap::new(),
+        parameters,
         assets,
-        includes: 0,
+        includes: Includes::new(file, assets.base_dir()),
+        nodes: 0,
     };
     builder.file(text, file, None)?;
+    builder.parameters.check_used()?;
     Ok(builder.tree)
 }
 
-struct Builder<'a> {
+/// Makes the tree, file by file.
+pub(super) struct Builder<'a> {
     tree: Tree,
-    parameters: BTreeMap<String, String>,
-    assets: &'a Assets,
-    includes: usize,
+    parameters: Parameters,
+    /// Where files are looked for.
+    pub(super) assets: &'a Assets,
+    /// The files that are being read.
+    pub(super) includes: Includes,
+    nodes: u32,
 }
 
 impl Builder<'_> {
     /// Reads a file into the plugin `parent`, or as the scene itself.
-    fn file(&mut self, text: &str, file: &Arc<str>, parent: Option<usize>) -> Result<()> {
+    pub(super) fn file(&mut self, text: &str, file: &Arc<str>, parent: Option<usize>) -> Result<()> {
         let places = Places::new(file.clone(), text);
-        let options =
-            roxmltree::ParsingOptions { allow_dtd: false, nodes_limit: MAX_NODES, ..Default::default() };
-        let document = roxmltree::Document::parse_with_options(text, options).map_err(|error| {
-            let position = error.pos();
-            let source = Source { file: file.clone(), line: position.row, column: position.col, length: 1 };
-            SceneError::at(&source, format!("not valid XML: {}", without_position(&error.to_string())))
-        })?;
+        let nodes_limit = MAX_NODES - self.nodes;
+        let options = roxmltree::ParsingOptions { allow_dtd: false, nodes_limit, ..Default::default() };
+        let document = roxmltree::Document::parse_with_options(text, options);
+        let document = document.map_err(|error| not_well_formed(&error, file))?;
+        self.nodes = self.nodes.saturating_add(saturated(document.descendants().count())).min(MAX_NODES);
         let root = document.root_element();
         if parent.is_none() && root.tag_name().name() != "scene" {
             let error = SceneError::at(&places.source(name_range(root)), "not a Mitsuba scene");
@@ -115,11 +101,13 @@ impl Builder<'_> {
             "default" => {
                 let (name, value) =
                     (self.required(node, "name", places)?, self.required(node, "value", places)?);
-                self.parameters.entry(name).or_insert(value);
+                self.parameters.define(name, value);
             }
-            "include" => self.include(node, places, parent)?,
-            // Says nothing about the scene in any version.
-            "mode" => {}
+            "include" => self.include(&self.required(node, "filename", places)?, &source, parent)?,
+            "path" => self.search_folder(&self.required(node, "value", places)?, &source)?,
+            "alias" => self.alias(node, places)?,
+            // Say nothing about the scene in any version.
+            "mode" | "null" => {}
             "ref" => {
                 let target = Target::Id(self.required(node, "id", places)?);
                 let name = self.attribute(node, "name", places)?.map(|name| present_name(&name));
@@ -152,12 +140,8 @@ impl Builder<'_> {
             (tag, _) => tag,
         };
         let id = self.attribute(node, "id", places)?;
-        if let Some(id) = &id
-            && let Some(first) = self.tree.ids.insert(id.clone(), index)
-        {
-            let first = &self.tree.plugins[first].source;
-            let message = format!("two elements have the id '{id}'; the other is at {first}");
-            return Err(SceneError::at(&source, message).with_remedy("rename one of them"));
+        if let Some(id) = &id {
+            self.identify(id.clone(), index, &source)?;
         }
         self.tree.plugins.push(Plugin {
             tag: tag.to_owned(),
@@ -181,7 +165,11 @@ impl Builder<'_> {
     ) -> Result<Property> {
         let mut attributes = Vec::new();
         for attribute in node.attributes() {
-            let value = self.substituted(attribute.value(), &places.source(attribute.range_value()))?;
+            let value_source = places.source(attribute.range_value());
+            let value = self.parameters.replace(attribute.value(), &value_source)?;
+            if attribute.name() == "filename" && node.tag_name().name() == "spectrum" {
+                attributes.push(("value".to_owned(), self.spectrum_file(&value, &value_source)?));
+            }
             attributes.push((attribute.name().to_owned(), value));
         }
         let name = attributes.iter().find(|(key, _)| key == "name").map(|(_, name)| present_name(name));
@@ -203,18 +191,26 @@ impl Builder<'_> {
         })
     }
 
-    fn include(&mut self, node: roxmltree::Node<'_, '_>, places: &Places<'_>, parent: usize) -> Result<()> {
-        let name = self.required(node, "filename", places)?;
+    /// Another name for a plugin that stands before it.
+    fn alias(&mut self, node: roxmltree::Node<'_, '_>, places: &Places<'_>) -> Result<()> {
+        let (id, new) = (self.required(node, "id", places)?, self.required(node, "as", places)?);
         let source = places.source(name_range(node));
-        self.includes += 1;
-        if self.includes > MAX_INCLUDES {
-            return Err(SceneError::at(&source, format!("more than {MAX_INCLUDES} includes")));
+        let Some(index) = self.tree.ids.get(&id).copied() else {
+            let error = SceneError::at(&source, format!("nothing above has the id '{id}'"));
+            return Err(error.with_remedy("move the alias below what it names"));
+        };
+        self.identify(new, index, &source)
+    }
+
+    /// Gives a plugin an id that nobody else has.
+    fn identify(&mut self, id: String, index: usize, source: &Source) -> Result<()> {
+        if let Some(first) = self.tree.ids.get(&id) {
+            let first = &self.tree.plugins[*first].source;
+            let message = format!("two elements have the id '{id}'; the other is at {first}");
+            return Err(SceneError::at(source, message).with_remedy("rename one of them"));
         }
-        let path = self.assets.path(&name);
-        let bytes = read_file(&source, &name, &path)?;
-        let text =
-            String::from_utf8(bytes).map_err(|_| SceneError::at(&source, format!("'{name}' is no text")))?;
-        self.file(&text, &Arc::from(path.display().to_string()), Some(parent))
+        self.tree.ids.insert(id, index);
+        Ok(())
     }
 
     fn attribute(
@@ -224,7 +220,8 @@ impl Builder<'_> {
         places: &Places<'_>,
     ) -> Result<Option<String>> {
         let Some(attribute) = node.attribute_node(key) else { return Ok(None) };
-        self.substituted(attribute.value(), &places.source(attribute.range_value())).map(Some)
+        let source = places.source(attribute.range_value());
+        self.parameters.replace(attribute.value(), &source).map(Some)
     }
 
     fn required(&self, node: roxmltree::Node<'_, '_>, key: &str, places: &Places<'_>) -> Result<String> {
@@ -232,23 +229,6 @@ impl Builder<'_> {
             let source = places.source(name_range(node));
             SceneError::at(&source, format!("<{}> needs the attribute `{key}`", node.tag_name().name()))
         })
-    }
-
-    /// A text with `$name` replaced by what `<default>` gave.
-    fn substituted(&self, text: &str, source: &Source) -> Result<String> {
-        let mut parts = text.split('$');
-        let mut result = parts.next().unwrap_or_default().to_owned();
-        for part in parts {
-            let length = part.find(|c: char| !(c.is_ascii_alphanumeric() || c == '_')).unwrap_or(part.len());
-            let (name, rest) = part.split_at(length);
-            let Some(value) = self.parameters.get(name) else {
-                let error = SceneError::at(source, format!("the parameter '${name}' has no value"));
-                return Err(error.with_remedy(format!("add <default name=\"{name}\" value=\"...\"/>")));
-            };
-            result.push_str(value);
-            result.push_str(rest);
-        }
-        Ok(result)
     }
 }
 
@@ -262,6 +242,26 @@ fn name_range(node: roxmltree::Node<'_, '_>) -> std::ops::Range<usize> {
     start..start + 1 + node.tag_name().name().len()
 }
 
+/// The XML reader's complaint, with its place.
+fn not_well_formed(error: &roxmltree::Error, file: &Arc<str>) -> SceneError {
+    let position = error.pos();
+    let source = Source { file: file.clone(), line: position.row, column: position.col, length: 1 };
+    match error {
+        roxmltree::Error::DtdDetected => {
+            let error = SceneError::at(&source, "a DTD is not read, nor the entities that it may define");
+            error.with_remedy("remove <!DOCTYPE ...> and write entities out")
+        }
+        roxmltree::Error::NodesLimitReached => {
+            SceneError::at(&source, format!("the scene has more than {MAX_NODES} elements"))
+        }
+        _ => SceneError::at(&source, format!("not valid XML: {}", without_position(&error.to_string()))),
+    }
+}
+
+fn saturated(count: usize) -> u32 {
+    u32::try_from(count).unwrap_or(u32::MAX)
+}
+
 /// The XML reader's message without its own " at line:column".
 fn without_position(message: &str) -> &str {
     message.rsplit_once(" at ").map_or(
@@ -270,48 +270,4 @@ fn without_position(message: &str) -> &str {
             if position.contains(':') { text } else { message }
         },
     )
-}
-
-/// Names of elements that changed between versions.
-fn present_tag(tag: &str) -> &str {
-    match tag {
-        "camera" => "sensor",
-        "luminaire" => "emitter",
-        "lookAt" => "lookat",
-        other => other,
-    }
-}
-
-/// A name as version 3 writes it: `toWorld` becomes `to_world`, `intIOR` `int_ior`.
-fn present_name(name: &str) -> String {
-    let mut result = String::with_capacity(name.len() + 4);
-    let mut previous_is_small = false;
-    for c in name.chars() {
-        if c.is_ascii_uppercase() && previous_is_small {
-            result.push('_');
-        }
-        previous_is_small = c.is_ascii_lowercase() || c.is_ascii_digit();
-        result.push(c.to_ascii_lowercase());
-    }
-    result
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn older_names_become_present_ones() {
-        for (old, new) in [
-            ("toWorld", "to_world"),
-            ("intIOR", "int_ior"),
-            ("fovAxis", "fov_axis"),
-            ("sigmaS", "sigma_s"),
-            ("cropOffsetX", "crop_offset_x"),
-            ("to_world", "to_world"),
-            ("k", "k"),
-        ] {
-            assert_eq!(present_name(old), new);
-        }
-    }
 }

@@ -7,7 +7,7 @@ use crate::limits::Limits;
 use crate::own::{MAX_PIXELS, MAX_SIDE, TENT_RADIUS};
 use hyaline_math::{Transform, float};
 use hyaline_scene::{
-    CameraDescription, FileIntegrator, FilmDescription, FovAxis, Located, PixelFilter, Projection,
+    CameraDescription, FileIntegrator, FilmDescription, FovAxis, Located, PixelFilter, Projection, SceneError,
 };
 
 /// Mitsuba's film size.
@@ -18,7 +18,7 @@ const GAUSSIAN_SIGMA: f64 = 0.5;
 impl Importer<'_> {
     /// Reads a sensor; the film of the first is that of the scene.
     pub(super) fn sensor(&mut self, sensor: Element<'_>, index: usize) -> Result<()> {
-        sensor.ignore(&["near_clip", "far_clip", "shutter_open", "shutter_close"]);
+        note_without_effect(sensor)?;
         let film = match sensor.child("film")? {
             Some(film) => read_film(film)?,
             None => FilmDescription { width: 768, height: 576, ..FilmDescription::default() },
@@ -37,7 +37,7 @@ impl Importer<'_> {
         let to_world = sensor.transform("to_world")?;
         let aspect = f64::from(self.scene.film.width) / f64::from(self.scene.film.height);
         let projection = read_projection(sensor, &to_world, aspect)?;
-        let placement = read_placement(sensor, &to_world)?;
+        let placement = camera_placement(sensor, &to_world)?;
         let medium = match sensor.child("medium")? {
             Some(medium) => {
                 let volume = self.volume(medium, "camera")?;
@@ -56,11 +56,28 @@ impl Importer<'_> {
     }
 }
 
+/// What changes nothing here: everything stands still, and nothing is cut off near or far.
+fn note_without_effect(sensor: Element<'_>) -> Result<()> {
+    sensor.ignore(&["shutter_open", "shutter_close"]);
+    for (name, usual) in [("near_clip", 1e-2), ("far_clip", 1e4)] {
+        if sensor.float(name, usual, Limits::ANY)? != usual {
+            sensor.info(format!("`{name}` of {} has no effect: nothing is cut off", sensor.title()));
+        }
+    }
+    for name in ["principal_point_offset_x", "principal_point_offset_y"] {
+        if sensor.float(name, 0.0, Limits::ANY)? != 0.0 {
+            sensor.warn(format!("`{name}` of {} is not supported and ignored", sensor.title()));
+        }
+    }
+    Ok(())
+}
+
 /// Our cameras look along -z with x to the right, Mitsuba's along +z with x to the left: half a turn about y.
-fn read_placement(sensor: Element<'_>, to_world: &Transform) -> Result<Transform> {
+pub(super) fn camera_placement(sensor: Element<'_>, to_world: &Transform) -> Result<Transform> {
     use hyaline_math::DVec3;
     if to_world.is_mirroring() {
-        sensor.warn("a sensor's transform mirrors the picture, which is not supported");
+        let message = "mirrors the picture, which is not supported: it is shown unmirrored";
+        sensor.warn(format!("`to_world` of {} {message}", sensor.title()));
     }
     let eye = to_world.translation();
     let forward = to_world.vector(DVec3::Z).normalize_or_zero();
@@ -81,6 +98,10 @@ fn read_projection(sensor: Element<'_>, to_world: &Transform, aspect: f64) -> Re
             let focus_distance = sensor.float("focus_distance", 1.0, Limits::POSITIVE)?;
             Ok(Projection::ThinLens { fov, fov_axis, lens_radius, focus_distance })
         }
+        // Panoramic in versions 0.5 and 0.6: all directions, the middle of the picture along +z.
+        "spherical" => {
+            Ok(Projection::Spherical { longitude: std::f64::consts::TAU, latitude: std::f64::consts::PI })
+        }
         // The film's width spans -1 to 1 of the sensor's space.
         "orthographic" => {
             Ok(Projection::Orthographic { height: 2.0 * to_world.vector(DVec3::X).length() / aspect })
@@ -94,16 +115,19 @@ fn read_projection(sensor: Element<'_>, to_world: &Transform, aspect: f64) -> Re
 }
 
 /// `fov` along `fov_axis` (x), or `focal_length` of a 35 mm film, whose diagonal counts.
-fn field_of_view(sensor: Element<'_>) -> Result<(f64, FovAxis)> {
+pub(super) fn field_of_view(sensor: Element<'_>) -> Result<(f64, FovAxis)> {
     let axis = match sensor.string("fov_axis")? {
         None => FovAxis::X,
         Some(axis) => match axis.as_str() {
             "x" => FovAxis::X,
             "y" => FovAxis::Y,
-            "diagonal" => FovAxis::Diagonal,
+            "diagonal" | "diag" => FovAxis::Diagonal,
             "smaller" => FovAxis::Smaller,
             "larger" => FovAxis::Larger,
-            other => return Err(sensor.error(format!("unknown fov_axis '{other}'"))),
+            other => {
+                let error = SceneError::at(&axis.source, format!("unknown fov_axis '{other}'"));
+                return Err(error.with_remedy("the axes are x, y, diagonal, smaller and larger"));
+            }
         },
     };
     if sensor.property("fov").is_some() {
@@ -123,6 +147,22 @@ fn field_of_view(sensor: Element<'_>) -> Result<(f64, FovAxis)> {
     Ok((2.0 * float::f64::atan2(half_diagonal, millimetres), FovAxis::Diagonal))
 }
 
+/// The angle across the width of a picture.
+///
+/// - `fov`: the angle across its `axis`, radians.
+/// - `aspect`: width over height.
+pub(super) fn across_width(fov: f64, axis: FovAxis, aspect: f64) -> f64 {
+    let factor = match axis {
+        FovAxis::X => 1.0,
+        FovAxis::Y => aspect,
+        FovAxis::Diagonal => aspect / (1.0 + aspect * aspect).sqrt(),
+        FovAxis::Smaller => aspect.max(1.0),
+        FovAxis::Larger => aspect.min(1.0),
+    };
+    let (sin, cos) = float::f64::sin_cos(0.5 * fov);
+    2.0 * float::f64::atan2(sin * factor, cos)
+}
+
 fn read_film(film: Element<'_>) -> Result<FilmDescription> {
     // What concerns the file that Mitsuba would write.
     film.ignore(&[
@@ -139,6 +179,10 @@ fn read_film(film: Element<'_>) -> Result<FilmDescription> {
         "tonemap_method",
         "exposure",
         "fill_gaps",
+        "variable",
+        "label",
+        "key",
+        "burn",
     ]);
     let whole = |name: &str, default: i64, low: i64, high: i64| -> Result<u32> {
         let number = film.integer(name)?.unwrap_or(default);

@@ -2,61 +2,113 @@
 
 use super::bsdf::Sides;
 use super::element::Element;
-use super::emitter;
+use super::form::Form;
 use super::importer::Importer;
+use super::media::Later;
 use crate::Result;
-use crate::limits::{LARGEST_LENGTH, Limits, SMALLEST_LENGTH};
-use hyaline_math::{DVec3, Transform};
-use hyaline_scene::{
-    BoundaryDescription, ColorSource, Located, MaterialKind, MeshData, ObjectDescription, ShapeDescription,
-};
-use std::f64::consts::{PI, TAU};
+use hyaline_scene::{BoundaryDescription, ColorSource, Emission, Located, MaterialKind, ObjectDescription};
 use std::path::Path;
-use std::sync::Arc;
 
-/// Radii that count.
-const RADIUS: Limits = Limits::between(SMALLEST_LENGTH, LARGEST_LENGTH);
-
-/// A form with its placement.
-struct Form {
-    shape: ShapeDescription,
-    placement: Transform,
-    /// Whether the normals of `shape` are already turned as the file wants them.
-    is_turned: bool,
+/// An object that is not placed in the scene yet.
+#[derive(Clone, Debug)]
+pub(super) struct Built {
+    /// The object; its name is one that others may have.
+    pub(super) object: ObjectDescription,
+    /// Media that wait until all shapes are read.
+    pub(super) later: Vec<Later>,
 }
 
 impl Importer<'_> {
-    /// Reads a shape; unsupported ones are left out with a warning.
+    /// Reads a shape of the scene and what is within it.
     pub(super) fn shape(&mut self, shape: Element<'_>) -> Result<()> {
-        shape.ignore(&["subdiv", "max_smooth_angle"]);
+        match shape.kind() {
+            // Described for instances to refer to.
+            "shapegroup" => Ok(()),
+            "instance" => self.instance(shape),
+            // Several shapes that Mitsuba joins to one where they look alike.
+            "merge" => shape.children("shape")?.into_iter().try_for_each(|(_, inner)| match inner.kind() {
+                "merge" | "instance" | "shapegroup" => {
+                    inner.ignore_all();
+                    inner.warn(format!("{} within 'merge' is not supported and left out", inner.title()));
+                    Ok(())
+                }
+                _ => self.shape(inner),
+            }),
+            _ => {
+                let built = self.build(shape)?;
+                built.into_iter().try_for_each(|built| self.add_object(built, shape))
+            }
+        }
+    }
+
+    /// Adds an object to the scene, with a name that nobody has.
+    pub(super) fn add_object(&mut self, mut built: Built, element: Element<'_>) -> Result<()> {
+        self.check_room(element)?;
+        built.object.name = self.names.unique(built.object.name);
+        let index = self.scene.objects.len();
+        self.later.extend(built.later.into_iter().map(|later| (index, later)));
+        self.scene.objects.push(Located::new(built.object, element.source().clone()));
+        Ok(())
+    }
+
+    /// The objects that a shape is, without adding them: mostly one; none, with a warning, where it is not supported.
+    pub(super) fn build(&mut self, shape: Element<'_>) -> Result<Vec<Built>> {
         let flip = shape.boolean("flip_normals", false)?;
-        let Some(form) = self.form(shape, flip)? else {
+        let name = self.default_name(shape)?;
+        let forms = self.forms(shape, flip)?;
+        if forms.is_empty() {
             shape.ignore_all();
             shape.warn(format!("{} is not supported and left out", shape.title()));
-            return Ok(());
-        };
-        let swap = flip && !form.is_turned;
-        let name = self.default_name(shape)?;
-        let name = self.object_name(name);
+        }
         let emission = match shape.child("emitter")? {
-            Some(emitter) => emitter::area(emitter)?,
+            Some(emitter) => self.area(emitter)?,
             None => None,
         };
-        if swap && emission.is_some() {
-            shape.warn(format!("{} shines outwards although `flip_normals` turns it inwards", shape.title()));
+        if forms.iter().all(|form| form.bsdf.is_none()) && shape.children("bsdf")?.len() > 1 {
+            shape.warn(format!("{} has several bsdfs; the first counts", shape.title()));
         }
-        let (material, boundary) = self.surface(shape, &name, swap, emission.is_some())?;
+        let swap = |form: &Form| flip && !form.is_turned;
+        forms
+            .into_iter()
+            .map(|form| {
+                let (swap, emission) = (swap(&form), emission.clone());
+                self.finish(shape, form, name.clone(), swap, emission)
+            })
+            .collect()
+    }
+
+    /// Gives a form its finish, its light and its media.
+    fn finish(
+        &mut self,
+        shape: Element<'_>,
+        form: Form,
+        name: String,
+        swap: bool,
+        mut emission: Option<Emission>,
+    ) -> Result<Built> {
+        if let (true, Some(emission)) = (swap, &mut emission) {
+            emission.two_sided = true;
+            let turned = "is turned inwards by `flip_normals`";
+            shape.warn(format!("{} {turned}, but shines to both sides", shape.title()));
+        }
+        let mut later = Vec::new();
+        let surface = self.surface(shape, form.bsdf.or(shape.child("bsdf")?), emission.is_some())?;
+        let boundary = self.boundary(shape, &name, surface.sides, swap, &mut later)?;
+        if emission.is_some()
+            && let Some(exterior) = shape.child_named("medium", "exterior")?
+        {
+            later.push(Later::Lamp(self.volume(exterior, &format!("{name}/exterior"))?));
+        }
         let object = ObjectDescription {
             name,
             shape: form.shape,
             placement: form.placement,
             boundary,
-            material,
+            material: surface.material,
             slot_materials: Vec::new(),
             emission,
         };
-        self.scene.objects.push(Located::new(object, shape.source().clone()));
-        Ok(())
+        Ok(Built { object, later })
     }
 
     /// What a shape is called: by its id, its file, or its type.
@@ -70,143 +122,66 @@ impl Importer<'_> {
         })
     }
 
-    /// The finish of a shape and the media at it.
+    /// The finish of a shape: that of its bsdf, or the one that Mitsuba gives to a shape without.
     fn surface(
         &mut self,
         shape: Element<'_>,
-        name: &str,
-        swap: bool,
+        bsdf: Option<Element<'_>>,
         is_emitter: bool,
-    ) -> Result<(Located<String>, BoundaryDescription)> {
+    ) -> Result<super::bsdf::Finish> {
+        if let Some(bsdf) = bsdf {
+            return self.bsdf(bsdf);
+        }
+        let has_media = shape.has_child("medium")?;
+        let (name, kind, sides) = if is_emitter {
+            ("black", MaterialKind::Black, Sides::Opaque)
+        } else if has_media {
+            ("pass-through", MaterialKind::PassThrough, Sides::PassThrough)
+        } else {
+            let grey = ColorSource::Constant([0.5; 3]);
+            ("matte", MaterialKind::Matte { reflectance: grey }, Sides::Opaque)
+        };
+        let material = self.add_material(name, kind, sides == Sides::PassThrough, shape.source());
+        Ok(super::bsdf::Finish { material, sides })
+    }
+
+    /// The media at a shape, as far as they are settled by now.
+    fn boundary(
+        &mut self,
+        shape: Element<'_>,
+        name: &str,
+        sides: Sides,
+        swap: bool,
+        later: &mut Vec<Later>,
+    ) -> Result<BoundaryDescription> {
         let interior = shape.child_named("medium", "interior")?;
         let exterior = shape.child_named("medium", "exterior")?;
-        let has_media = interior.is_some() || exterior.is_some();
-        let (material, sides) = match shape.child("bsdf")? {
-            Some(bsdf) => {
-                let finish = self.bsdf(bsdf)?;
-                (finish.material, finish.sides)
-            }
-            None => {
-                let source = shape.source();
-                let grey = MaterialKind::Matte { reflectance: ColorSource::Constant([0.5; 3]) };
-                if is_emitter {
-                    (self.add_material("black", MaterialKind::Black, false, source), Sides::Opaque)
-                } else if has_media {
-                    (
-                        self.add_material("pass-through", MaterialKind::PassThrough, true, source),
-                        Sides::PassThrough,
-                    )
-                } else {
-                    (self.add_material("matte", grey, false, source), Sides::Opaque)
-                }
-            }
+        if sides == Sides::Opaque {
+            // What surrounds a surface that lets no light through is told by what lies around it.
+            interior.into_iter().chain(exterior).for_each(|medium| medium.ignore_all());
+            return Ok(BoundaryDescription::None);
+        }
+        let mut volume = |medium: Option<Element<'_>>, what: &str| match medium {
+            Some(medium) => self.volume(medium, &format!("{name}/{what}")),
+            None => Ok(None),
         };
-        let (inside, outside) = match sides {
-            Sides::Opaque => {
-                // What surrounds a surface that lets no light through is told by what lies around it.
-                interior.into_iter().chain(exterior).for_each(|medium| medium.ignore_all());
-                return Ok((material, BoundaryDescription::None));
+        let (mut inside, mut outside) = (volume(interior, "interior")?, volume(exterior, "exterior")?);
+        let Sides::Dielectric { inside: mut inner, outside: mut outer } = sides else {
+            if swap {
+                std::mem::swap(&mut inside, &mut outside);
             }
-            Sides::Dielectric { inside, outside } => (inside, outside),
-            Sides::PassThrough => (1.0, 1.0),
+            later.push(Later::Sides(inside, outside));
+            return Ok(BoundaryDescription::None);
         };
-        let mut side =
-            |volume: Option<Element<'_>>, index: f64, what: &str| -> Result<Option<Located<String>>> {
-                let volume = match volume {
-                    Some(volume) => self.volume(volume, &format!("{name}/{what}"))?,
-                    None => None,
-                };
-                self.world_is_vacuum |= volume.is_none() && index == 1.0;
-                Ok(self.medium(volume, index, shape.source()))
-            };
-        let mut inside = side(interior, inside, "interior")?;
-        let mut outside = side(exterior, outside, "exterior")?;
         if swap {
             std::mem::swap(&mut inside, &mut outside);
+            std::mem::swap(&mut inner, &mut outer);
         }
-        Ok((material, BoundaryDescription::Interface { outside, inside }))
-    }
-
-    /// The form of a shape; `None` where its type is unknown.
-    fn form(&self, shape: Element<'_>, flip: bool) -> Result<Option<Form>> {
-        let placement = shape.transform("to_world")?;
-        let form = |shape: ShapeDescription| Form { shape, placement, is_turned: false };
-        let half_u = if flip { -DVec3::X } else { DVec3::X };
-        let normal = if flip { -DVec3::Z } else { DVec3::Z };
-        Ok(Some(match shape.kind() {
-            "sphere" => form(ShapeDescription::Sphere {
-                center: shape.point("center")?.unwrap_or(DVec3::ZERO),
-                radius: shape.float("radius", 1.0, RADIUS)?,
-                phi: [0.0, TAU],
-                theta: [0.0, PI],
-            }),
-            "rectangle" => Form {
-                shape: ShapeDescription::Rectangle { center: DVec3::ZERO, half_u, half_v: DVec3::Y },
-                placement,
-                is_turned: true,
-            },
-            "disk" => Form {
-                shape: ShapeDescription::Disc { center: DVec3::ZERO, normal, radius: 1.0, inner_radius: 0.0 },
-                placement,
-                is_turned: true,
-            },
-            "cube" => form(ShapeDescription::Box { min: -DVec3::ONE, max: DVec3::ONE, radius: 0.0 }),
-            "cylinder" => self.cylinder(shape, &placement)?,
-            "ply" | "obj" => self.mesh(shape, placement, flip)?,
-            _ => return Ok(None),
-        }))
-    }
-
-    /// An open cylinder from p0 to p1; ours stands on the origin along y.
-    fn cylinder(&self, shape: Element<'_>, to_world: &Transform) -> Result<Form> {
-        let p0 = shape.point("p0")?.unwrap_or(DVec3::ZERO);
-        let axis = shape.point("p1")?.unwrap_or(DVec3::Z) - p0;
-        let radius = shape.float("radius", 1.0, RADIUS)?;
-        let length = axis.length();
-        match Transform::from_y_axis(p0, axis, DVec3::X) {
-            Some(upright) if RADIUS.contain(length) => Ok(Form {
-                shape: ShapeDescription::Cylinder {
-                    radius,
-                    y: [0.0, length],
-                    phi: [0.0, TAU],
-                    capped: false,
-                },
-                placement: to_world.after(&upright),
-                is_turned: false,
-            }),
-            _ => Err(shape.error("the ends `p0` and `p1` of the cylinder coincide")),
-        }
-    }
-
-    fn mesh(&self, shape: Element<'_>, placement: Transform, flip: bool) -> Result<Form> {
-        let Some(name) = shape.string("filename")? else {
-            return Err(shape.error(format!("{} needs `filename`", shape.title())));
+        let mut side = |volume: Option<usize>, index: f64| {
+            self.world_is_vacuum |= volume.is_none() && index == 1.0;
+            self.medium(volume, index, shape.source())
         };
-        let mut mesh = self.assets.mesh(&name.source, &name)?;
-        let flat = shape.boolean("face_normals", false)?;
-        let is_obj = shape.kind() == "obj";
-        let flip_v = shape.boolean("flip_tex_coords", is_obj)? && !mesh.uvs.is_empty();
-        // One BSDF holds for the whole shape: what OBJ files say about materials is of no use.
-        let has_slots = !mesh.slots.is_empty();
-        if flip || flip_v || has_slots {
-            mesh = Arc::new(changed(MeshData::clone(&mesh), flip, flip_v));
-        }
-        Ok(Form { shape: ShapeDescription::Mesh { mesh, flat }, placement, is_turned: true })
+        let (inside, outside) = (side(inside, inner), side(outside, outer));
+        Ok(BoundaryDescription::Interface { outside, inside })
     }
-}
-
-/// A mesh without slots, inside out where `flip`, its texture coordinates upside down where `flip_v`.
-fn changed(mut mesh: MeshData, flip: bool, flip_v: bool) -> MeshData {
-    if flip {
-        mesh.triangles.iter_mut().for_each(|triangle| triangle.swap(1, 2));
-        for normal in &mut mesh.normals {
-            *normal = normal.map(|coordinate| -coordinate);
-        }
-    }
-    if flip_v {
-        mesh.uvs.iter_mut().for_each(|uv| uv[1] = 1.0 - uv[1]);
-    }
-    mesh.face_slots = Vec::new();
-    mesh.slots = Vec::new();
-    mesh
 }

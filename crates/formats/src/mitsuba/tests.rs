@@ -1,5 +1,11 @@
 //! Tests of Mitsuba scenes.
 
+mod emitters;
+mod files;
+mod media;
+mod shapes;
+mod values;
+
 use crate::load_mitsuba_text;
 use hyaline_math::DVec3;
 use hyaline_scene::*;

@@ -9,8 +9,13 @@ use hyaline_math::{DMat3, DVec3, Transform};
 /// # Errors
 /// A step that is unknown, malformed or can't be inverted.
 pub(super) fn read(property: &Property) -> Result<Transform> {
+    // An animation counts by its first transform, which the caller notes.
+    let steps = match property.tag.as_str() {
+        "animation" => property.steps.first().map_or(&[][..], |first| &first.steps),
+        _ => &property.steps,
+    };
     let mut total = Transform::IDENTITY;
-    for step in &property.steps {
+    for step in steps {
         total = read_step(step)?.after(&total);
         let is_finite = total.linear().is_finite() && total.inverse().linear().is_finite();
         if !is_finite || !total.translation().is_finite() {
@@ -25,17 +30,12 @@ fn read_step(step: &Property) -> Result<Transform> {
         "translate" => Ok(Transform::translate(step.vector(0.0)?)),
         "rotate" => {
             let degrees = step.text("angle").map_or(Ok(0.0), |angle| step.parse(angle))?;
-            Transform::rotate(step.vector(0.0)?, degrees.to_radians())
+            let axis = step.triple("axis")?.map_or_else(|| step.vector(0.0), Ok)?;
+            Transform::rotate(axis, degrees.to_radians())
                 .ok_or_else(|| step.error("the axis of the rotation has no length"))
         }
-        "scale" => {
-            let single = step.text("value").map(|value| step.numbers(value)).transpose()?;
-            let factors = match single.as_deref() {
-                Some([factor]) => DVec3::splat(*factor),
-                _ => step.vector(1.0)?,
-            };
-            Transform::scale(factors).ok_or_else(|| step.error("a factor of the scaling is 0 or nearly so"))
-        }
+        "scale" => Transform::scale(step.vector(1.0)?)
+            .ok_or_else(|| step.error("a factor of the scaling is 0 or nearly so")),
         "lookat" => look_at(step),
         "matrix" => matrix(step),
         other => Err(step
@@ -52,7 +52,8 @@ fn look_at(step: &Property) -> Result<Transform> {
     let (origin, target) = (need("origin")?, need("target")?);
     let forward = (target - origin).try_normalize();
     let forward = forward.ok_or_else(|| step.error("`origin` and `target` coincide"))?;
-    let up = step.triple("up")?.unwrap_or_else(|| if forward.y.abs() > 0.999 { DVec3::Z } else { DVec3::Y });
+    let up = step.triple("up")?.filter(|up| *up != DVec3::ZERO);
+    let up = up.unwrap_or_else(|| if forward.y.abs() > 0.999 { DVec3::Z } else { DVec3::Y });
     let left = up.cross(forward).try_normalize();
     let left =
         left.ok_or_else(|| step.error("`up` is zero or parallel to the view").with_remedy("turn `up`"))?;

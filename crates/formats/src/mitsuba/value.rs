@@ -1,5 +1,6 @@
 //! Numbers, vectors and colors in attributes.
 
+use super::spectrum::{Meaning, black_body, color_of};
 use super::tree::Property;
 use crate::Result;
 use crate::color::{linear_from_srgb, parse_hex};
@@ -57,8 +58,13 @@ impl Property {
         }
     }
 
-    /// A vector from `value`, or from `x`, `y`, `z`, each `missing` where absent.
+    /// A vector from `value`, which may be one number for all, or from `x`, `y`, `z`, each `missing` where absent.
     pub(super) fn vector(&self, missing: f64) -> Result<DVec3> {
+        if let Some(text) = self.text("value")
+            && let [all] = self.numbers(text)?.as_slice()
+        {
+            return Ok(DVec3::splat(*all));
+        }
         if let Some(vector) = self.triple("value")? {
             return Ok(vector);
         }
@@ -66,20 +72,21 @@ impl Property {
         Ok(DVec3::new(coordinate("x")?, coordinate("y")?, coordinate("z")?))
     }
 
-    /// A color from a float, rgb, srgb or spectrum. The flag tells that it was spectral and is a mean.
-    pub(super) fn color(&self) -> Result<(Rgb, bool)> {
+    /// A color from a float, rgb, srgb, spectrum or blackbody.
+    ///
+    /// - `meaning`: of a spectrum by wavelengths.
+    pub(super) fn color(&self, meaning: Meaning) -> Result<Rgb> {
+        if self.tag == "blackbody" {
+            return self.black_body();
+        }
         let text = self.text("value").or(self.text("intensity"));
         let text = text.ok_or_else(|| self.error(format!("<{}> needs the attribute `value`", self.tag)))?;
         if text.trim().starts_with('#') {
             let error = || self.error(format!("{} is no color", self.title()));
-            return parse_hex(text.trim()).map(|color| (color, false)).ok_or_else(error);
+            return parse_hex(text.trim()).ok_or_else(error);
         }
         if text.contains(':') {
-            let values = text.split(|c: char| c == ',' || c.is_whitespace()).filter(|pair| !pair.is_empty());
-            let values = values.map(|pair| self.parse(pair.rsplit(':').next().unwrap_or_default()));
-            let values = values.collect::<Result<Vec<f64>>>()?;
-            let mean = values.iter().sum::<f64>() / values.len().max(1) as f64;
-            return Ok(([mean as f32; 3], true));
+            return self.spectrum(text, meaning);
         }
         let color = match self.numbers(text)?.as_slice() {
             [grey] => [*grey as f32; 3],
@@ -92,6 +99,39 @@ impl Property {
                 )));
             }
         };
-        Ok((if self.tag == "srgb" { color.map(linear_from_srgb) } else { color }, false))
+        Ok(if self.tag == "srgb" { color.map(linear_from_srgb) } else { color })
+    }
+
+    /// Pairs `wavelength:value`, wavelengths in nm and rising.
+    fn spectrum(&self, text: &str, meaning: Meaning) -> Result<Rgb> {
+        let words = text.split(|c: char| c == ',' || c.is_whitespace()).filter(|pair| !pair.is_empty());
+        let pair = |word: &str| match word.split_once(':') {
+            Some((wavelength, value)) => Ok((self.parse(wavelength)?, self.parse(value)?)),
+            None => Err(self.error(format!("{} must have pairs 'wavelength:value'", self.title()))),
+        };
+        let samples = words.map(pair).collect::<Result<Vec<(f64, f64)>>>()?;
+        self.check_rising(&samples)?;
+        Ok(color_of(&samples, meaning))
+    }
+
+    /// Wavelengths must rise.
+    pub(super) fn check_rising(&self, samples: &[(f64, f64)]) -> Result<()> {
+        match samples.windows(2).any(|pair| pair[0].0 >= pair[1].0) {
+            true => Err(self.error(format!("the wavelengths of {} must rise", self.title()))),
+            false => Ok(()),
+        }
+    }
+
+    fn black_body(&self) -> Result<Rgb> {
+        let need = || self.error("<blackbody> needs the attribute `temperature`, in kelvin");
+        // Version 0.5 also writes "5000K".
+        let text = self.text("temperature").ok_or_else(need)?.trim_end_matches(['k', 'K']);
+        let temperature = self.parse(text)?;
+        if !(1.0..=1e6).contains(&temperature) {
+            return Err(self.error(format!("a temperature must be from 1 to 1000000 K, not {temperature}")));
+        }
+        let scale =
+            self.text("scale").or(self.text("multiplier")).map_or(Ok(1.0), |scale| self.parse(scale))?;
+        Ok(black_body(temperature, scale))
     }
 }

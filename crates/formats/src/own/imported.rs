@@ -33,11 +33,13 @@ pub(crate) fn override_imported(scene: &mut SceneDescription, overrides: &[(Stri
         cameras(scene, field)?;
     }
     if let Some(field) = table.take("media") {
+        let assets = Assets::new(Path::new(""));
         for (field, source) in field.entries()? {
             let names = scene.media.iter().map(|medium| medium.name.as_str());
             let index = position("medium", field.key, source, names)?;
             let mut table = field.table(format!("medium '{}'", field.key))?;
-            scene.media[index].value = medium::read(&mut table, 1.0, scene.media[index].value.clone())?;
+            let old = scene.media[index].value.clone();
+            scene.media[index].value = medium::read(&mut table, 1.0, old, &assets)?;
             table.finish()?;
         }
     }

@@ -3,11 +3,15 @@
 //! `ior` is a number (default 1), a name of the catalogue, `{ nd, abbe }`, `{ cauchy = [a, b, c] }` or
 //! `{ sellmeier = { b = [..], c = [..] } }` (micrometres). Absorption is one of `color = { rgb = .., at = "20 cm" }`,
 //! `filter` (per scene unit, above 0 and at most 1) and `sigma_a` (1 / scene unit). `sigma_s` scatters with mean
-//! cosine `g`; `priority` decides where solids overlap.
+//! cosine `g` or by `phase`: "isotropic", "rayleigh", `{ hg = g }` or `{ double = [g1, g2, share of the second] }`.
+//! `emission` is what the volume sends out by itself (W sr⁻¹ m⁻³), `grid` where it is how dense; `priority` decides
+//! where solids overlap.
 
 use super::field::Field;
+use super::grid;
 use super::table::Table;
 use crate::Result;
+use crate::assets::Assets;
 use crate::limits::Limits;
 use hyaline_scene::{Absorption, IndexDescription, MediumDescription, PhaseDescription, Scattering};
 
@@ -15,7 +19,12 @@ use hyaline_scene::{Absorption, IndexDescription, MediumDescription, PhaseDescri
 const IOR: Limits = Limits::above_to(0.0, 100.0);
 
 /// Reads a medium; keys that are absent keep what `base` has.
-pub(super) fn read(table: &mut Table<'_>, metres: f64, base: MediumDescription) -> Result<MediumDescription> {
+pub(super) fn read(
+    table: &mut Table<'_>,
+    metres: f64,
+    base: MediumDescription,
+    assets: &Assets,
+) -> Result<MediumDescription> {
     let index = table.read("ior", base.index, index)?;
     let absorption = match table.take_one(&["color", "filter", "sigma_a"])? {
         None => base.absorption,
@@ -24,13 +33,44 @@ pub(super) fn read(table: &mut Table<'_>, metres: f64, base: MediumDescription) 
     let isotropic = Scattering { sigma_s: [0.0; 3], phase: PhaseDescription::Isotropic };
     let old = base.scattering.clone().unwrap_or(isotropic);
     let sigma_s = table.read("sigma_s", old.sigma_s, |field| field.color(Limits::NOT_NEGATIVE))?;
-    let g = table.read_some("g", |field| field.number_f32(Limits::inside(-1.0, 1.0)))?;
-    let phase = g.map_or(old.phase, PhaseDescription::from_mean_cosine);
-    let scattering = (sigma_s != [0.0; 3]).then_some(Scattering { sigma_s, phase });
+    let phase = table.take_one(&["g", "phase"])?.map_or(Ok(old.phase), phase)?;
+    let emission = table.read("emission", base.emission, |field| field.color(Limits::NOT_NEGATIVE))?;
+    let density = match table.take("grid") {
+        Some(field) => Some(grid::read(field, metres, assets)?),
+        None => base.density,
+    };
+    // A grid of albedos scatters even where the coefficient is 0.
+    let has_albedo = density.as_ref().is_some_and(|grid| grid.albedo.is_some());
+    let scattering = (sigma_s != [0.0; 3] || has_albedo).then_some(Scattering { sigma_s, phase });
     let priorities = (i64::from(i32::MIN), i64::from(i32::MAX));
     let priority =
         table.read("priority", i64::from(base.priority), |f| f.integer(priorities.0, priorities.1))?;
-    Ok(MediumDescription { index, absorption, scattering, priority: priority as i32, ..base })
+    let priority = priority as i32;
+    Ok(MediumDescription { index, absorption, scattering, emission, density, priority, ..base })
+}
+
+/// `g`, or a phase function by name or as a table.
+fn phase(field: Field<'_>) -> Result<PhaseDescription> {
+    let cosine = |field: Field<'_>| field.number_f32(Limits::inside(-1.0, 1.0));
+    if field.key == "g" {
+        return cosine(field).map(PhaseDescription::from_mean_cosine);
+    }
+    if field.string().is_ok() {
+        let names = [("isotropic", PhaseDescription::Isotropic), ("rayleigh", PhaseDescription::Rayleigh)];
+        return field.choice(&names);
+    }
+    let mut table = field.table("phase")?;
+    let form = table.take_one(&["hg", "double"])?;
+    table.finish()?;
+    match form {
+        None => Err(field.error("`phase` as a table needs `hg` or `double`")),
+        Some(form) if form.key == "hg" => cosine(form).map(PhaseDescription::from_mean_cosine),
+        Some(form) => {
+            let [g1, g2, weight] = form.array(Ok)?;
+            let (g1, g2, weight) = (cosine(g1)?, cosine(g2)?, weight.number_f32(Limits::FRACTION)?);
+            Ok(PhaseDescription::DoubleHenyeyGreenstein { g1, g2, weight })
+        }
+    }
 }
 
 fn index(field: Field<'_>) -> Result<IndexDescription> {

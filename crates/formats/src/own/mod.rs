@@ -8,6 +8,7 @@ mod document;
 mod field;
 mod film;
 mod flat;
+mod grid;
 mod imported;
 mod light;
 mod light_power;

@@ -141,7 +141,7 @@ impl<'a> Reader<'a> {
 
     fn medium_entry(&mut self, mut table: Table<'_>, name: Located<String>) -> Result<()> {
         let clear = MediumDescription::clear(name.value, IndexDescription::Constant(1.0));
-        let medium = medium::read(&mut table, self.metres, clear)?;
+        let medium = medium::read(&mut table, self.metres, clear, self.assets)?;
         table.finish()?;
         self.scene.media.push(Located::new(medium, name.source));
         Ok(())
