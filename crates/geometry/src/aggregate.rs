@@ -126,9 +126,7 @@ impl Aggregate {
     pub fn tangents(&self, hit: &SurfaceHit) -> Tangents {
         match &self.items[hit.item as usize].geometry {
             ItemGeometry::Shape(shape) => shape.tangents(hit.p),
-            ItemGeometry::Mesh { mesh, transform } => {
-                mesh.mesh().tangents(hit.primitive, transform.as_ref())
-            }
+            ItemGeometry::Mesh { mesh, transform } => mesh.mesh().tangents(hit.primitive, transform.as_ref()),
         }
     }
 

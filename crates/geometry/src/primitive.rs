@@ -1,7 +1,7 @@
 //! A shape placed in the world: rays in `f32` outside, `f64` inside.
 
-use crate::{SurfaceHit, Tangents};
 use crate::shape::{Crossings, Shape};
+use crate::{SurfaceHit, Tangents};
 use hyaline_math::{Bounds, DVec2, DVec3, Ray, Transform, Vec2, Vec3};
 
 /// Bound on the rounding errors of one pass through a shape's equations and a transform, in units of `f64::EPSILON`
