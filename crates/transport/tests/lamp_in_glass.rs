@@ -57,5 +57,9 @@ fn a_black_lamp_takes_back_what_the_shell_reflects() {
     let wrapped = irradiance(0.1, "black", Some([0.6, 0.61]));
     let expected = seen(PI * 5.0 * 0.1 * 0.1) * 0.96 / 1.04;
     let error = wrapped.variance_of_mean().sqrt();
-    assert!(error < 0.04 * expected && (wrapped.mean() - expected).abs() < 4.0 * error, "{} ± {error}, {expected}", wrapped.mean());
+    assert!(
+        error < 0.04 * expected && (wrapped.mean() - expected).abs() < 4.0 * error,
+        "{} ± {error}, {expected}",
+        wrapped.mean()
+    );
 }

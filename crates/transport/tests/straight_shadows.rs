@@ -58,7 +58,11 @@ fn slab(low: f64, high: f64) -> ShapeDescription {
 fn assert_alike(a: &Moments, b: &Moments, bias: f64, what: &str) {
     let p = welch_t(a.mean(), a.variance_of_mean(), a.count(), b.mean(), b.variance_of_mean(), b.count());
     let error = (a.variance_of_mean() + b.variance_of_mean()).sqrt();
-    assert!(b.mean() > 0.0 && error < 0.04 * b.mean(), "{what}: an error of {error} in {} shows nothing", b.mean());
+    assert!(
+        b.mean() > 0.0 && error < 0.04 * b.mean(),
+        "{what}: an error of {error} in {} shows nothing",
+        b.mean()
+    );
     let off = (a.mean() - b.mean()).abs() / b.mean();
     assert!(p > 1e-3 || off < bias, "{what}: {} and {} ± {error} (p = {p})", a.mean(), b.mean());
 }
@@ -69,7 +73,12 @@ fn a_small_lamp_shines_through_a_pane_by_fresnel_twice_and_its_medium() {
     for x in [0.0, 0.8, 3.0] {
         let mut kit = receiver();
         kit.absorbing_medium("glass", n, [sigma as f32; 3], 0);
-        kit.object("pane", slab(0.4, 0.4 + thickness), BoundaryDescription::Solid { medium: "glass".into() }, "clear");
+        kit.object(
+            "pane",
+            slab(0.4, 0.4 + thickness),
+            BoundaryDescription::Solid { medium: "glass".into() },
+            "clear",
+        );
         kit.light(LightKind::Point { position: DVec3::new(x, 1.5, 0.0), intensity: [3.0; 3] });
         let distance = (x * x + 1.5 * 1.5_f64).sqrt();
         let cos = 1.5 / distance;
@@ -195,8 +204,7 @@ fn what_is_opaque_behind_the_glass_still_throws_its_shadow() {
     kit.surface("plate", facing_down(DVec3::Y * 0.8, 0.1), "dark");
     let world = with_straight_shadows(&kit, true);
     assert_eq!(irradiance(&world, 100).mean(), 0.0);
-    let blocks: Vec<bool> =
-        world.geometry.items().iter().map(|item| item.mask & mask::BLOCKS != 0).collect();
+    let blocks: Vec<bool> = world.geometry.items().iter().map(|item| item.mask & mask::BLOCKS != 0).collect();
     assert_eq!(blocks, [true, false, true], "receiver, pane, plate");
     assert!(world.has_permeable && !with_straight_shadows(&kit, false).has_permeable);
 }
@@ -214,7 +222,11 @@ fn rough_glass_has_no_straight_way_and_a_note_says_so() {
     }
     let (world, notes) = World::compile(&kit.description).unwrap();
     let straight: Vec<bool> = world.materials.iter().map(|m| m.straight_shadows).collect();
-    assert_eq!(straight, [true, false, false, true, true, false], "dielectric, black, dark, clear, pane, ground");
+    assert_eq!(
+        straight,
+        [true, false, false, true, true, false],
+        "dielectric, black, dark, clear, pane, ground"
+    );
     let ignored = notes.iter().filter(|note| note.message.contains("straight_shadows")).count();
     assert_eq!(ignored, 3);
 }
