@@ -189,6 +189,16 @@ fn a_back_has_a_material_of_its_own() {
     let world = kit.world();
     assert_mean(&spread(&world, DVec3::Y, DVec3::ZERO, 2000), 0.2, "front");
     assert_mean(&spread(&world, -DVec3::Y, DVec3::ZERO, 2000), 0.8, "back");
+    // A part of a blend that works from one side does so in the blend, and a blend that does speaks for its parts.
+    edited(&mut kit, "one-sided", MaterialKind::Matte { reflectance: color(0.6) }, |m| m.two_sided = false);
+    kit.material("half", blend("light", "one-sided", 0.5));
+    edited(&mut kit, "none", blend("light", "light", 0.5), |m| m.two_sided = false);
+    for (finish, front, back) in [("half", 0.7, 0.4), ("none", 0.8, 0.0)] {
+        kit.description.objects[0].value.material = finish.into();
+        let world = kit.world();
+        assert_mean(&spread(&world, DVec3::Y, DVec3::ZERO, 20_000), front, finish);
+        assert_mean(&spread(&world, -DVec3::Y, DVec3::ZERO, 20_000), back, finish);
+    }
 }
 
 #[test]

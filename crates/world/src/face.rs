@@ -84,13 +84,19 @@ impl World {
 
     fn choose_face<'w>(&'w self, ray: &Ray, hit: &SurfaceHit, mut material: &'w Material) -> Face<'w> {
         let mut choices = Choices::new(ray, hit);
-        let mut face = Face { finish: None, relief: None, sides: material.sides(), straight_shadows: false };
+        // What is named for the back works there, whatever it says of itself.
+        let mut is_own_back = false;
+        let mut face = Face { finish: None, relief: None, sides: Sides::Both, straight_shadows: false };
         loop {
             if choices.is_hole(self, material, hit) {
                 return face;
             }
             if let Some(back) = self.back_of(ray, hit, material) {
-                (material, face.sides) = (back, Sides::Both);
+                material = back;
+                is_own_back = true;
+            }
+            if !(material.two_sided || is_own_back) {
+                face.sides = Sides::Front;
             }
             face.relief = material.relief.as_ref().or(face.relief);
             face.straight_shadows = material.straight_shadows;
