@@ -7,7 +7,7 @@ use crate::bvh::{
     self, Any, BoxRay, Closest, Every, Lanes, MeshBvh, Query, SimdLevel, Sink, SlabRay, Tree, VerifiedLevel,
     Visitor,
 };
-use crate::hit::{Candidate, SurfaceHit};
+use crate::hit::{Candidate, SurfaceHit, Tangents};
 use crate::mesh::triangle::LocalRay;
 use crate::primitive::Primitive;
 use hyaline_math::{Bounds, Ray, Transform, Vec2, Vec3};
@@ -116,6 +116,17 @@ impl Aggregate {
                 SurfaceHit { item: hit.item, primitive: 0, ..shape.surface_at(ray, hit.t) }
             }
             ItemGeometry::Mesh { mesh, transform } => mesh.mesh().surface(hit, transform.as_ref()),
+        }
+    }
+
+    /// Derivatives of the surface point at a hit by its coordinates.
+    ///
+    /// # Panics
+    /// Where the aggregate has no such item or primitive.
+    pub fn tangents(&self, hit: &SurfaceHit) -> Tangents {
+        match &self.items[hit.item as usize].geometry {
+            ItemGeometry::Shape(shape) => shape.tangents(hit.p),
+            ItemGeometry::Mesh { mesh, transform } => mesh.mesh().tangents(hit.primitive, transform.as_ref()),
         }
     }
 

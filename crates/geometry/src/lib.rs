@@ -11,7 +11,7 @@ pub mod shape;
 pub mod vessel;
 
 pub use aggregate::{Aggregate, Item, ItemGeometry};
-pub use hit::{Candidate, SurfaceHit};
+pub use hit::{Candidate, SurfaceHit, Tangents};
 pub use mesh::Mesh;
 pub use primitive::{AreaSample, Primitive};
 pub use shape::Shape;

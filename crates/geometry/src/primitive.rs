@@ -1,7 +1,7 @@
 //! A shape placed in the world: rays in `f32` outside, `f64` inside.
 
-use crate::SurfaceHit;
 use crate::shape::{Crossings, Shape};
+use crate::{SurfaceHit, Tangents};
 use hyaline_math::{Bounds, DVec2, DVec3, Ray, Transform, Vec2, Vec3};
 
 /// Bound on the rounding errors of one pass through a shape's equations and a transform, in units of `f64::EPSILON`
@@ -99,8 +99,14 @@ impl Primitive {
         let point = self.shape.surface_at(origin + direction * exact_t);
         let ng = self.world_normal(point.n);
         let (p, p_error) = self.world_point(point.p);
-        let dpdu = self.transform.vector(point.dpdu).as_vec3();
-        SurfaceHit { t, p, p_error, ng, n: ng, uv: point.uv.as_vec2(), dpdu, item: 0, primitive: 0 }
+        SurfaceHit { t, p, p_error, ng, n: ng, uv: point.uv.as_vec2(), item: 0, primitive: 0 }
+    }
+
+    /// Derivatives of the surface point `p` by its coordinates.
+    pub fn tangents(&self, p: Vec3) -> Tangents {
+        let point = self.shape.surface_at(self.transform.inverse_point(p.as_dvec3()));
+        let [dpdu, dpdv] = [point.dpdu, point.dpdv].map(|v| self.transform.vector(v).as_vec3());
+        Tangents::new(dpdu, dpdv, self.world_normal(point.n))
     }
 
     /// The crossing that was rounded to `t`, in full precision.

@@ -4,12 +4,14 @@
 //! that of the side the ray arrives from.
 
 pub mod attenuation;
+pub mod diffuse_fresnel;
 pub mod dispersion;
 pub mod fresnel;
 pub mod microfacet;
 pub mod refraction;
 
 pub use attenuation::{sigma_from_color_at_distance, sigma_from_filter, transmittance};
+pub use diffuse_fresnel::diffuse_fresnel;
 pub use dispersion::{Abbe, Cauchy, IndexModel, Sellmeier};
 pub use fresnel::{fresnel_conductor, fresnel_dielectric};
 pub use microfacet::Ggx;

@@ -5,10 +5,31 @@ use crate::stats::Stats;
 use crate::walk::Vertex;
 use hyaline_math::{Ray, Vec3};
 use hyaline_sampling::{Sampler, mis};
+use hyaline_scattering::BsdfSample;
 use hyaline_scattering::{MediumSet, Transport};
 use hyaline_spectrum::Spectrum;
 use hyaline_world::light::{DirectSample, Light};
-use hyaline_world::{World, mask};
+use hyaline_world::{StraightWay, World, mask};
+
+/// How a path came to where it is, for weighing the lights that it hits.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct LastScatter {
+    /// The last vertex at which light sampling was possible, and the density of the direction taken there.
+    /// `None` after the camera and after singular vertices: light sampling could not have made the path.
+    pub sampled: Option<(Vec3, f32)>,
+    /// Whether such a vertex has been left, and since then straight shadows crossed and nothing else: its shadow rays
+    /// have brought all light that comes this way, so that what is hit now adds nothing.
+    pub is_covered: bool,
+}
+
+impl LastScatter {
+    /// Takes note of a scattering event; see `Vertex::passes_straight` for the rule.
+    pub fn record(&mut self, vertex: &Vertex, scattered: &BsdfSample) {
+        let was_receiver = self.sampled.is_some() || self.is_covered;
+        self.is_covered = was_receiver && vertex.passes_straight(scattered.transmits);
+        self.sampled = (!scattered.is_delta).then_some((vertex.hit.p, scattered.pdf));
+    }
+}
 
 /// A vertex that asks for light.
 pub struct DirectLight<'a> {
@@ -53,7 +74,8 @@ impl DirectLight<'_> {
             return contribution;
         }
         let weight = self.mis_weight(&sample, probability);
-        contribution * self.visible_fraction(&sample, stats) * (weight / sample.pdf_w)
+        let way = self.straight_way(&sample, stats);
+        contribution * way.shared * (weight / sample.pdf_w) + contribution * way.alone * (1.0 / sample.pdf_w)
     }
 
     fn mis_weight(&self, sample: &DirectSample, probability: f32) -> f32 {
@@ -63,14 +85,14 @@ impl DirectLight<'_> {
         mis::power(sample.pdf_w * probability, self.vertex.bsdf.pdf(self.wo, sample.wi))
     }
 
-    fn visible_fraction(&self, sample: &DirectSample, stats: &mut Stats) -> Spectrum {
+    fn straight_way(&self, sample: &DirectSample, stats: &mut Stats) -> StraightWay {
         let hit = &self.vertex.hit;
         let ray = shadow::ray_to_light(hit, sample, 0.0);
         let crosses = (sample.wi.dot(hit.ng) > 0.0) != (self.wo.dot(hit.ng) > 0.0);
         if crosses {
-            shadow::transmittance(self.world, &ray, &self.vertex.far_set(self.world, self.set), stats)
+            shadow::straight_way(self.world, &ray, &self.vertex.far_set(self.world, self.set), stats)
         } else {
-            shadow::transmittance(self.world, &ray, self.set, stats)
+            shadow::straight_way(self.world, &ray, self.set, stats)
         }
     }
 }

@@ -42,12 +42,28 @@ pub struct Vertex {
     pub distance: f32,
     /// What crossing it changes.
     encounter: Encounter,
+    /// Whether shadow rays pass it straight, though paths are bent by it.
+    straight_shadows: bool,
 }
 
 impl Vertex {
     /// Takes the path across the surface: `set` becomes what holds on the other side.
     pub fn commit(&self, world: &World, set: &mut MediumSet) {
         self.encounter.commit(world, set);
+    }
+
+    /// Whether shadow rays have already brought what comes to a receiver this way: the surface has straight shadows,
+    /// and the path crosses it.
+    ///
+    /// This is the rule of straight shadows, for paths and photons alike. Light that comes to a receiver through
+    /// nothing but such crossings, and what light passes straight anyway, is left to the receiver's shadow rays: a
+    /// path from the receiver adds nothing for it, and a photon that takes this way from its light is not kept there.
+    /// Light that is reflected on the way, or bent by a surface without straight shadows, counts as always.
+    ///
+    /// - `transmits`: whether the path crosses the surface.
+    pub fn passes_straight(&self, transmits: bool) -> bool {
+        // A lamp stops shadow rays, whatever its finish.
+        self.straight_shadows && transmits && self.light.is_none()
     }
 
     /// The same place with another finish.
@@ -78,15 +94,26 @@ pub fn advance(world: &World, ray: &Ray, visible: u8, set: &mut MediumSet, stats
             transmittance *= medium.transmittance(f32::INFINITY);
             return Event::Sky { transmittance };
         };
-        let (hit, encounter) =
+        let (mut hit, encounter) =
             world.meet(&ray, &candidate, set, visible, &mut |object| stats.count_never_entered(object));
         transmittance *= medium.transmittance(hit.t);
         distance += hit.t;
-        let Some(straight) = world.straight_through(&hit, &encounter) else {
+        let face = world.face(&ray, &hit, &encounter);
+        let Some(straight) = world.straight_through(&face, &hit, &encounter) else {
+            if let Some(relief) = face.relief {
+                hit.n = relief.normal(&world.textures, &hit, &world.geometry.tangents(&hit));
+            }
             let item = &world.items[hit.item as usize];
-            let bsdf = world.surface_bsdf(&ray, &hit, &encounter, within);
-            let (object, light) = (item.object, item.light);
-            return Event::Surface(Vertex { hit, bsdf, object, light, transmittance, distance, encounter });
+            return Event::Surface(Vertex {
+                bsdf: world.surface_bsdf(&face, &ray, &hit, &encounter, within),
+                object: item.object,
+                light: item.light,
+                straight_shadows: face.straight_shadows,
+                hit,
+                transmittance,
+                distance,
+                encounter,
+            });
         };
         transmittance *= straight;
         encounter.commit(world, set);

@@ -1,13 +1,13 @@
 //! What a ray meets at a hit: the surface, what coincides with it, and what crossing it changes.
 
 use crate::World;
+use crate::material::Material;
 use hyaline_geometry::{Candidate, ItemGeometry, SurfaceHit};
 use hyaline_math::ray::offset_distance;
 use hyaline_math::{Ray, Vec3, offset_origin};
 use hyaline_scattering::{
     BoundaryKind, Crossing, MediumId, MediumSet, ObjectId, Side, Sides, SurfaceBsdf, SurfaceCrossing,
 };
-use hyaline_spectrum::Spectrum;
 use smallvec::{SmallVec, smallvec};
 
 /// What crossing a surface changes; an opaque surface changes nothing.
@@ -15,12 +15,15 @@ use smallvec::{SmallVec, smallvec};
 pub struct Encounter {
     /// The boundary; `None` where no media meet.
     pub crossing: Option<Crossing>,
+    /// Whether it is settled that the ray meets no hole: what lies behind would have been met instead.
+    pub(crate) is_solid_there: bool,
     surfaces: SmallVec<[SurfaceCrossing; 2]>,
 }
 
 impl Encounter {
+    /// A surface that bounds no medium.
     fn opaque() -> Self {
-        Self { crossing: None, surfaces: SmallVec::new() }
+        Self { crossing: None, is_solid_there: false, surfaces: SmallVec::new() }
     }
 
     /// Takes a path across: `set` becomes what holds on the other side.
@@ -48,7 +51,7 @@ impl World {
         let hit = self.geometry.surface(ray, candidate);
         let item = &self.items[hit.item as usize];
         if self.boundaries.of(item.object) == BoundaryKind::None {
-            return (hit, Encounter::opaque());
+            return self.meet_sheet(ray, hit, set, visible, never_entered);
         }
         let side = Side::from_cosine(ray.direction.dot(hit.ng));
         let mut surfaces = smallvec![(item.object, side)];
@@ -63,10 +66,47 @@ impl World {
             if side == Side::Entering && (back - hit.p).dot(hit.ng) < 0.0 {
                 set.commit(&self.boundaries, &surfaces[..1]);
             }
-            return (opaque, Encounter::opaque());
+            return (opaque, Encounter { is_solid_there: true, ..Encounter::opaque() });
         }
         let crossing = Some(set.crossing(&self.boundaries, &surfaces, never_entered));
-        (hit, Encounter { crossing, surfaces })
+        (hit, Encounter { crossing, is_solid_there: false, surfaces })
+    }
+
+    /// The same at a surface that bounds no medium. Where it lies on a boundary and has holes, as a label on a bottle
+    /// has, a ray that meets a hole meets the boundary.
+    fn meet_sheet(
+        &self,
+        ray: &Ray,
+        hit: SurfaceHit,
+        set: &mut MediumSet,
+        visible: u8,
+        never_entered: &mut impl FnMut(ObjectId),
+    ) -> (SurfaceHit, Encounter) {
+        if !(self.items[hit.item as usize].may_coincide && self.default_material(&hit).has_holes()) {
+            return (hit, Encounter::opaque());
+        }
+        match self.boundary_behind(ray, &hit, visible) {
+            Some(behind) if self.is_hole(ray, &hit) => self.meet(ray, &behind, set, visible, never_entered),
+            behind => (hit, Encounter { is_solid_there: behind.is_some(), ..Encounter::opaque() }),
+        }
+    }
+
+    /// The first boundary of a medium that a ray which goes on from `hit` would have passed over.
+    fn boundary_behind(&self, ray: &Ray, hit: &SurfaceHit, visible: u8) -> Option<Candidate> {
+        let next_start = offset_origin(hit.p, hit.p_error, hit.ng, ray.direction);
+        let mut nearest: Option<Candidate> = None;
+        self.geometry.crossings(&jumped_over(ray, hit), visible, &mut |other: Candidate| {
+            let surface = self.geometry.surface(ray, &other);
+            let is_passed = (next_start - surface.p).dot(surface.ng) * ray.direction.dot(surface.ng) >= 0.0;
+            let object = self.items[other.item as usize].object;
+            if is_passed
+                && self.boundaries.of(object) != BoundaryKind::None
+                && nearest.is_none_or(|first| (other.t, other.item) < (first.t, first.item))
+            {
+                nearest = Some(other);
+            }
+        });
+        nearest
     }
 
     /// Whether `object` is a solid that a path within `set` has not entered.
@@ -85,12 +125,9 @@ impl World {
         is_swapped: bool,
         surfaces: &mut SmallVec<[SurfaceCrossing; 2]>,
     ) -> Option<SurfaceHit> {
-        // What the start of the next ray jumps over, measured along this one.
-        let jump = offset_distance(hit.p, hit.p_error) / hit.ng.dot(ray.direction).abs().max(1e-3);
-        let window = Ray { t_min: hit.t.next_down(), t_max: (hit.t + jump).next_up().min(ray.t_max), ..*ray };
         let next_start = offset_origin(hit.p, hit.p_error, hit.ng, ray.direction);
         let mut opaque: Option<SurfaceHit> = None;
-        self.geometry.crossings(&window, visible, &mut |other: Candidate| {
+        self.geometry.crossings(&jumped_over(ray, hit), visible, &mut |other: Candidate| {
             if (other.item, other.primitive) == (hit.item, hit.primitive) {
                 return;
             }
@@ -106,57 +143,27 @@ impl World {
                 if is_passed || is_other_face {
                     surfaces.push((object, Side::from_cosine(cosine)));
                 }
-            } else if is_passed && opaque.is_none_or(|first| (other.t, other.item) < (first.t, first.item)) {
+            } else if is_passed
+                && opaque.is_none_or(|first| (other.t, other.item) < (first.t, first.item))
+                && !self.is_hole(ray, &surface)
+            {
                 opaque = Some(surface);
             }
         });
         opaque
     }
 
-    /// Fraction of light that goes straight through, unbent and unreflected; `None` where the surface does more than
-    /// that.
-    pub fn straight_through(&self, hit: &SurfaceHit, encounter: &Encounter) -> Option<Spectrum> {
-        if self.items[hit.item as usize].light.is_some() {
-            return None;
-        }
-        if encounter.crossing == Some(Crossing::Hidden) {
-            return Some(Spectrum::ONE);
-        }
-        let is_matched = encounter.crossing.is_some_and(|crossing| crossing.is_index_matched(&self.media));
-        let material = &self.materials[self.material_of(hit, encounter) as usize];
-        material.straight_through(&self.textures, hit.uv, is_matched)
-    }
-
-    /// How the surface scatters light that comes along `ray` through the medium `within`.
-    pub fn surface_bsdf(
-        &self,
-        ray: &Ray,
-        hit: &SurfaceHit,
-        encounter: &Encounter,
-        within: MediumId,
-    ) -> SurfaceBsdf {
-        let (ior, eta) = match encounter.crossing {
-            Some(Crossing::Boundary { from, to, .. }) => (self.ior(from), self.ior(to) / self.ior(from)),
-            Some(Crossing::Hidden) | None => (self.ior(within), 1.0),
-        };
-        let material = &self.materials[self.material_of(hit, encounter) as usize];
-        let bsdf = material.bsdf(&self.textures, hit.uv, ior, eta);
-        SurfaceBsdf::new(bsdf, hit.n, hit.ng, -ray.direction, material.sides(), self.lanes)
-    }
-
     /// Suffern's local term of a simple transparent surface; `None` where it has none.
     ///
     /// - `wo`: where the path came from, unit, away from the surface.
     pub fn local_term(&self, hit: &SurfaceHit, wo: Vec3) -> Option<SurfaceBsdf> {
-        let item = &self.items[hit.item as usize];
-        let bsdf = self.materials[self.material_at(item.material, hit) as usize].local_term()?;
+        let bsdf = self.default_material(hit).local_term()?;
         Some(SurfaceBsdf::new(bsdf, hit.n, hit.ng, wo, Sides::Both, self.lanes))
     }
 
     /// Whether a surface without media lets light through: a thin pane.
     pub fn is_thin(&self, hit: &SurfaceHit) -> bool {
-        let item = &self.items[hit.item as usize];
-        self.materials[self.material_at(item.material, hit) as usize].is_thin()
+        self.default_material(hit).is_thin()
     }
 
     /// Index of refraction of a medium.
@@ -165,7 +172,7 @@ impl World {
     }
 
     /// The finish in force: that of the surface hit, or of the object whose boundary wins where several coincide.
-    fn material_of(&self, hit: &SurfaceHit, encounter: &Encounter) -> u32 {
+    pub(crate) fn material_of(&self, hit: &SurfaceHit, encounter: &Encounter) -> u32 {
         let item = &self.items[hit.item as usize];
         match encounter.crossing {
             Some(Crossing::Boundary { owner, .. }) if owner != item.object => {
@@ -173,6 +180,11 @@ impl World {
             }
             _ => self.material_at(item.material, hit),
         }
+    }
+
+    /// The material of the surface itself.
+    pub(crate) fn default_material(&self, hit: &SurfaceHit) -> &Material {
+        &self.materials[self.material_at(self.items[hit.item as usize].material, hit) as usize]
     }
 
     /// The finish of a face, where a mesh has several.
@@ -189,4 +201,10 @@ impl World {
             ItemGeometry::Shape(_) => default,
         }
     }
+}
+
+/// The part of a ray that the start of the next one jumps over where it goes on from `hit`.
+fn jumped_over(ray: &Ray, hit: &SurfaceHit) -> Ray {
+    let jump = offset_distance(hit.p, hit.p_error) / hit.ng.dot(ray.direction).abs().max(1e-3);
+    Ray { t_min: hit.t.next_down(), t_max: (hit.t + jump).next_up().min(ray.t_max), ..*ray }
 }

@@ -1,8 +1,8 @@
-//! The surface of a mesh about a point of a face: position, normals, texture coordinates, tangent.
+//! The surface of a mesh about a point of a face: position, normals, texture coordinates, tangents.
 
 use super::{Mesh, Shading};
-use crate::hit::{Candidate, SurfaceHit};
-use hyaline_math::{DVec3, Frame, Transform, Vec2, Vec3};
+use crate::hit::{Candidate, SurfaceHit, Tangents};
+use hyaline_math::{DVec3, Transform, Vec2, Vec3};
 
 /// A point of a face and how far rounding may have moved it.
 #[derive(Clone, Copy, Debug)]
@@ -21,16 +21,13 @@ impl Mesh {
     /// Where the mesh has no such face.
     pub(crate) fn surface(&self, hit: &Candidate, transform: Option<&Transform>) -> SurfaceHit {
         let point = self.point(hit.primitive, hit.barycentric, transform);
-        let (uv, dpdu) = self.coordinates(hit.primitive, hit.barycentric);
-        let dpdu = transform.map_or(dpdu, |t| t.vector(dpdu)).as_vec3();
         SurfaceHit {
             t: hit.t,
             p: point.p,
             p_error: point.p_error,
             ng: point.ng,
             n: self.shading_normal(hit.primitive, hit.barycentric, transform, point.ng),
-            uv,
-            dpdu: if dpdu.is_finite() && dpdu != Vec3::ZERO { dpdu } else { Frame::from_normal(point.ng).s },
+            uv: self.coordinates(hit.primitive, hit.barycentric),
             item: hit.item,
             primitive: hit.primitive,
         }
@@ -72,19 +69,34 @@ impl Mesh {
         }
     }
 
-    /// Texture coordinates, and the derivative of the local point by the first of them; zero where there is none.
-    fn coordinates(&self, face: u32, barycentric: Vec2) -> (Vec2, DVec3) {
-        let [a, b, c] = self.corners(face).map(|p| p.as_dvec3());
+    /// Texture coordinates; barycentric ones where the mesh has none.
+    fn coordinates(&self, face: u32, barycentric: Vec2) -> Vec2 {
         let Some(uvs) = self.uvs() else {
-            return (barycentric, b - a);
+            return barycentric;
         };
-        let [uv_a, uv_b, uv_c] = self.triangles()[face as usize].map(|i| uvs[i as usize]);
-        let uv = uv_a + (uv_b - uv_a) * barycentric.x + (uv_c - uv_a) * barycentric.y;
-        // [Pharr, Jakob, Humphreys 2023, eq. 6.7]: solve the two edges for dp/du.
-        let (d_b, d_c) = ((uv_b - uv_a).as_dvec2(), (uv_c - uv_a).as_dvec2());
-        let determinant = d_b.perp_dot(d_c);
-        let dpdu = ((b - a) * d_c.y - (c - a) * d_b.y) / determinant;
-        (uv, if dpdu.is_finite() { dpdu } else { DVec3::ZERO })
+        let [a, b, c] = self.triangles()[face as usize].map(|i| uvs[i as usize]);
+        a + (b - a) * barycentric.x + (c - a) * barycentric.y
+    }
+
+    /// Derivatives of the points of a face by their texture coordinates, the same all over it.
+    ///
+    /// # Panics
+    /// Where the mesh has no such face.
+    pub(crate) fn tangents(&self, face: u32, transform: Option<&Transform>) -> Tangents {
+        let [a, b, c] = self.corners(face).map(|p| p.as_dvec3());
+        let (mut dpdu, mut dpdv) = (b - a, c - a);
+        if let Some(uvs) = self.uvs() {
+            let [uv_a, uv_b, uv_c] = self.triangles()[face as usize].map(|i| uvs[i as usize]);
+            let (d_b, d_c) = ((uv_b - uv_a).as_dvec2(), (uv_c - uv_a).as_dvec2());
+            // [Pharr, Jakob, Humphreys 2023, eq. 6.7]: solve the two edges for dp/du and dp/dv.
+            let determinant = d_b.perp_dot(d_c);
+            (dpdu, dpdv) =
+                ((dpdu * d_c.y - dpdv * d_b.y) / determinant, (dpdv * d_b.x - dpdu * d_c.x) / determinant);
+        }
+        let place = |v: DVec3| transform.map_or(v, |t| t.vector(v)).as_vec3();
+        let n = self.doubled_area(face);
+        let ng = transform.map_or(n, |t| t.normal(n)).normalize_or(DVec3::Y).as_vec3();
+        Tangents::new(place(dpdu), place(dpdv), ng)
     }
 }
 

@@ -116,12 +116,16 @@ fn the_geometric_normal_follows_the_winding_and_the_shading_normal_follows_it() 
 fn texture_coordinates_and_their_derivative_are_linear_on_a_face() {
     let mut data = square();
     data.uvs = Some(vec![Vec2::new(1.0, 0.0), Vec2::new(3.0, 0.0), Vec2::new(3.0, 4.0), Vec2::new(1.0, 4.0)]);
-    let surface = Mesh::new(data.clone()).unwrap().surface(&hit(0, Vec2::new(0.25, 0.5)), None);
+    let mesh = Mesh::new(data.clone()).unwrap();
+    let surface = mesh.surface(&hit(0, Vec2::new(0.25, 0.5)), None);
     assert_eq!((surface.p, surface.uv), (Vec3::new(0.75, 0.5, 0.0), Vec2::new(2.5, 2.0)));
-    assert!((surface.dpdu - 0.5 * Vec3::X).length() < 1e-6);
+    let tangents = mesh.tangents(0, None);
+    assert!((tangents.dpdu - 0.5 * Vec3::X).length() < 1e-6);
+    assert!((tangents.dpdv - 0.25 * Vec3::Y).length() < 1e-6);
     data.uvs = Some(vec![Vec2::ONE; 4]);
-    let constant = Mesh::new(data).unwrap().surface(&hit(0, Vec2::new(0.25, 0.5)), None);
+    let constant = Mesh::new(data).unwrap().tangents(0, None);
     assert!((constant.dpdu.length() - 1.0).abs() < 1e-6 && constant.dpdu.dot(Vec3::Z).abs() < 1e-6);
+    assert!((constant.dpdu.cross(constant.dpdv) - Vec3::Z).length() < 1e-6);
 }
 
 #[test]

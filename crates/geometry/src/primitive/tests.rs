@@ -157,7 +157,9 @@ fn normals_point_outward_under_any_map() {
         assert!(hit.ng.dot(hit.p - center) > 0.0 && hit.ng.dot(ray.direction) < 1e-3);
         let inner = Primitive { flipped: true, ..ball }.surface_at(&ray, t);
         assert_eq!(inner.ng, -hit.ng);
-        assert!((hit.ng.length() - 1.0).abs() < 1e-6 && hit.dpdu.normalize().dot(hit.ng).abs() < 1e-6);
+        let tangents = ball.tangents(hit.p);
+        assert!((hit.ng.length() - 1.0).abs() < 1e-6 && tangents.dpdu.normalize().dot(hit.ng).abs() < 1e-6);
+        assert!(tangents.dpdv.normalize().dot(hit.ng).abs() < 1e-6);
         assert_eq!(hit.n, hit.ng);
         let sample = ball.sample_area(Vec2::new(random.uniform_f32(), random.uniform_f32()));
         assert!(sample.n.dot(sample.p - center) > 0.0);

@@ -245,7 +245,8 @@ impl RevolvedArc {
         let normal = offset.try_normalize().unwrap_or(self.theta.from());
         let profile = self.center + normal * self.radius;
         let profile = DVec2::new(profile.x.max(0.0), profile.y);
-        revolved_surface(profile, normal, away, &self.phi, self.theta.fraction(normal))
+        let length = self.radius * self.theta.span();
+        revolved_surface(profile, normal, away, &self.phi, self.theta.fraction(normal), length)
     }
 
     /// Area from the first angle to `past` radians later, per radian of azimuth and unit of radius, and its slope.

@@ -63,6 +63,8 @@ pub struct ShapePoint {
     pub uv: DVec2,
     /// Derivative of the point by `uv.x`; some unit tangent where that vanishes.
     pub dpdu: DVec3,
+    /// Derivative of the point by `uv.y`.
+    pub dpdv: DVec3,
 }
 
 impl Shape {
@@ -169,8 +171,16 @@ fn away_from_axis(p: DVec3, phi: &AngleRange) -> DVec3 {
 /// Assembles the surface point of a revolved shape.
 ///
 /// - `profile`: (r, y) on the profile, r ≥ 0; `normal`: (r, y) components of the unit normal.
-/// - `away`: unit direction from the axis; `v`: fraction of the way along the profile.
-fn revolved_surface(profile: DVec2, normal: DVec2, away: DVec3, phi: &AngleRange, v: f64) -> ShapePoint {
+/// - `away`: unit direction from the axis.
+/// - `v`, `length`: fraction of the way along the profile, and the whole way.
+fn revolved_surface(
+    profile: DVec2,
+    normal: DVec2,
+    away: DVec3,
+    phi: &AngleRange,
+    v: f64,
+    length: f64,
+) -> ShapePoint {
     let around = DVec3::new(away.z, 0.0, -away.x);
     let speed = phi.span() * profile.x;
     ShapePoint {
@@ -178,6 +188,8 @@ fn revolved_surface(profile: DVec2, normal: DVec2, away: DVec3, phi: &AngleRange
         n: away * normal.x + DVec3::Y * normal.y,
         uv: DVec2::new(phi.fraction(DVec2::new(away.z, away.x)), v),
         dpdu: if speed > 0.0 { around * speed } else { around },
+        // The normal points to the right hand of the walk.
+        dpdv: (DVec3::Y * normal.x - away * normal.y) * length,
     }
 }
 

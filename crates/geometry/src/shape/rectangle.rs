@@ -67,6 +67,7 @@ impl Rectangle {
             n: self.n,
             uv: (0.5 * (ab + 1.0)).clamp(DVec2::ZERO, DVec2::ONE),
             dpdu: 2.0 * self.half_u,
+            dpdv: 2.0 * self.half_v,
         }
     }
 

@@ -146,7 +146,8 @@ impl RevolvedSegment {
         let profile = self.start + self.along * s;
         let profile = DVec2::new(profile.x.max(0.0), profile.y);
         let away = away_from_axis(p, &self.phi);
-        revolved_surface(profile, self.normal(), away, &self.phi, (s / self.length).clamp(0.0, 1.0))
+        let v = (s / self.length).clamp(0.0, 1.0);
+        revolved_surface(profile, self.normal(), away, &self.phi, v, self.length)
     }
 
     /// Source: Pappus' theorem.

@@ -98,7 +98,8 @@ impl Sphere {
         let away = away_from_axis(p, &self.phi);
         let normal = DVec2::new(axis_distance(p), p.y).try_normalize().unwrap_or(DVec2::Y);
         let v = self.latitude.fraction(normal);
-        revolved_surface(normal * self.radius, normal, away, &self.phi, v)
+        let length = self.radius * self.latitude.span();
+        revolved_surface(normal * self.radius, normal, away, &self.phi, v, length)
     }
 
     pub(super) fn area(&self) -> f64 {

@@ -256,21 +256,23 @@ fn surface_points_lie_on_the_surface_and_normals_are_its_gradient() {
 }
 
 #[test]
-fn surface_coordinates_are_fractions_and_dpdu_is_the_derivative() {
+fn surface_coordinates_are_fractions_and_have_their_derivatives() {
     let mut random = Random::from_seed(11);
     for case in cases(5, 600) {
         let (u, v) = (random.between(0.01, 0.99), random.between(0.01, 0.99));
         let span = case.phi[1] - case.phi[0];
-        let at = |u: f64| {
+        let at = |u: f64, v: f64| {
             let q = (case.profile)(v);
             revolved_point(q.x, q.y, case.phi[0] + u * span).0
         };
-        let point = case.shape.surface_at(at(u));
+        let point = case.shape.surface_at(at(u, v));
         assert!(point.uv.distance(DVec2::new(u, v)) < 1e-7, "{} for {u} {v}", point.uv);
         let h = 1e-5;
-        let derivative = (at(u + h) - at(u - h)) / (2.0 * h);
-        assert!(point.dpdu.distance(derivative) < 1e-6, "{} for {derivative}", point.dpdu);
-        assert!(point.dpdu.dot(point.n).abs() < 1e-12);
+        let by_u = (at(u + h, v) - at(u - h, v)) / (2.0 * h);
+        let by_v = (at(u, v + h) - at(u, v - h)) / (2.0 * h);
+        assert!(point.dpdu.distance(by_u) < 1e-6, "{} for {by_u}", point.dpdu);
+        assert!(point.dpdv.distance(by_v) < 1e-6, "{} for {by_v}", point.dpdv);
+        assert!(point.dpdu.dot(point.n).abs() < 1e-12 && point.dpdv.dot(point.n).abs() < 1e-12);
     }
 }
 

@@ -3,6 +3,7 @@
 //! Values are free of the n² factor, as photons see them.
 
 use super::*;
+use hyaline_optics::fresnel_dielectric;
 
 /// Smaller GGX widths are taken for polished: their peaks are beyond `f32`, and nobody sees the difference.
 pub const MIN_ALPHA: f32 = 1e-3;
@@ -34,6 +35,10 @@ pub enum Bsdf {
     RoughDielectric(RoughDielectric),
     /// See [`ThinDielectric`].
     ThinDielectric(ThinDielectric),
+    /// See [`Plastic`].
+    Plastic(Plastic),
+    /// See [`RoughPlastic`].
+    RoughPlastic(RoughPlastic),
     /// See [`SimpleTransparent`].
     SimpleTransparent(SimpleTransparent),
     /// See [`PassThrough`].
@@ -125,6 +130,31 @@ impl Bsdf {
         }
     }
 
+    /// A matte base under a clear coat, polished or rough by `alpha`; matte alone where the coat has the index of its
+    /// surroundings.
+    ///
+    /// - `eta`: index of the coat over that of its surroundings, > 0; `coats`: for this `eta`.
+    /// - `diffuse`: reflectance of the base, 0…1; `specular`: factor on what the coat reflects, 0…1.
+    /// - `nonlinear`: whether light between base and coat takes the color of the base each time.
+    /// - `alpha`: GGX width, 0…1.
+    pub fn plastic(
+        eta: f32,
+        coats: &CoatTable,
+        diffuse: Spectrum,
+        specular: Spectrum,
+        nonlinear: bool,
+        alpha: f32,
+    ) -> Self {
+        if eta == 1.0 {
+            Self::Matte(Matte { reflectance: diffuse })
+        } else if alpha < MIN_ALPHA {
+            Self::Plastic(Plastic::new(eta, diffuse, specular, nonlinear))
+        } else {
+            let coat = coats.at(alpha);
+            Self::RoughPlastic(RoughPlastic::new(eta, alpha, coat, diffuse, specular, nonlinear))
+        }
+    }
+
     /// Whether the finish knows single directions only.
     pub fn is_delta(&self) -> bool {
         match self {
@@ -139,7 +169,9 @@ impl Bsdf {
             | Self::Phong(_)
             | Self::GlossySpecular(_)
             | Self::RoughConductor(_)
-            | Self::RoughDielectric(_) => false,
+            | Self::RoughDielectric(_)
+            | Self::Plastic(_)
+            | Self::RoughPlastic(_) => false,
         }
     }
 
@@ -152,7 +184,9 @@ impl Bsdf {
             | Self::GlossySpecular(_)
             | Self::Mirror(_)
             | Self::Conductor(_)
-            | Self::RoughConductor(_) => true,
+            | Self::RoughConductor(_)
+            | Self::Plastic(_)
+            | Self::RoughPlastic(_) => true,
             Self::Dielectric(_)
             | Self::RoughDielectric(_)
             | Self::ThinDielectric(_)
@@ -175,11 +209,13 @@ impl Bsdf {
             | Self::Conductor(_)
             | Self::RoughConductor(_)
             | Self::ThinDielectric(_)
+            | Self::Plastic(_)
+            | Self::RoughPlastic(_)
             | Self::PassThrough(_) => 1.0,
         }
     }
 
-    /// The single directions of a polished finish; `None` for others.
+    /// The single directions of a finish, all of a polished one and the coat of a coated one; `None` for others.
     pub(super) fn branches(&self, wo: Vec3) -> Option<[Option<LocalBranch>; 2]> {
         match self {
             Self::Mirror(b) => Some(b.branches(wo)),
@@ -188,12 +224,14 @@ impl Bsdf {
             Self::ThinDielectric(b) => Some(b.branches(wo)),
             Self::SimpleTransparent(b) => Some(b.branches(wo)),
             Self::PassThrough(b) => Some(b.branches(wo)),
+            Self::Plastic(b) => Some(b.branches(wo)),
             Self::Black(_)
             | Self::Matte(_)
             | Self::Phong(_)
             | Self::GlossySpecular(_)
             | Self::RoughConductor(_)
-            | Self::RoughDielectric(_) => None,
+            | Self::RoughDielectric(_)
+            | Self::RoughPlastic(_) => None,
         }
     }
 
@@ -205,6 +243,8 @@ impl Bsdf {
             Self::GlossySpecular(b) => b.sample(wo, u2),
             Self::RoughConductor(b) => b.sample(wo, u2),
             Self::RoughDielectric(b) => b.sample(wo, u_lobe, u2, lanes),
+            Self::Plastic(b) => b.sample(wo, u_lobe, u2, lanes),
+            Self::RoughPlastic(b) => b.sample(wo, u_lobe, u2, lanes),
             Self::Black(_) => None,
             Self::Mirror(_)
             | Self::Conductor(_)
@@ -223,6 +263,8 @@ impl Bsdf {
             Self::GlossySpecular(b) => b.eval(wo, wi),
             Self::RoughConductor(b) => b.eval(wo, wi),
             Self::RoughDielectric(b) => b.eval(wo, wi),
+            Self::Plastic(b) => b.eval(wo, wi),
+            Self::RoughPlastic(b) => b.eval(wo, wi),
             Self::Black(_)
             | Self::Mirror(_)
             | Self::Conductor(_)
@@ -241,6 +283,8 @@ impl Bsdf {
             Self::GlossySpecular(b) => b.pdf(wo, wi),
             Self::RoughConductor(b) => b.pdf(wo, wi),
             Self::RoughDielectric(b) => b.pdf(wo, wi, lanes),
+            Self::Plastic(b) => b.pdf(wo, wi, lanes),
+            Self::RoughPlastic(b) => b.pdf(wo, wi, lanes),
             Self::Black(_)
             | Self::Mirror(_)
             | Self::Conductor(_)
@@ -248,6 +292,34 @@ impl Bsdf {
             | Self::ThinDielectric(_)
             | Self::SimpleTransparent(_)
             | Self::PassThrough(_) => 0.0,
+        }
+    }
+
+    /// Fraction of light that a straight shadow ray takes along through the surface: what Fresnel's equations let
+    /// through, as if the way were not bent.
+    ///
+    /// - `cos`: cosine of the way to the normal, 0…1, taken for the one on the side of the lower index: so that both
+    ///   faces of a pane weigh alike, and neither reflects totally.
+    pub(super) fn straight_transmittance(&self, cos: f32) -> Spectrum {
+        let polished = |b: &Dielectric| {
+            let eta = if b.eta >= 1.0 { b.eta } else { 1.0 / b.eta };
+            b.tint_t * (1.0 - fresnel_dielectric(cos, eta))
+        };
+        match self {
+            Self::Dielectric(b) => polished(b),
+            Self::RoughDielectric(b) => polished(&b.smooth),
+            Self::ThinDielectric(b) => b.transmittance(cos),
+            Self::SimpleTransparent(b) => Spectrum::splat(b.k_t),
+            Self::PassThrough(_) => Spectrum::ONE,
+            Self::Black(_)
+            | Self::Matte(_)
+            | Self::Phong(_)
+            | Self::GlossySpecular(_)
+            | Self::Mirror(_)
+            | Self::Conductor(_)
+            | Self::RoughConductor(_)
+            | Self::Plastic(_)
+            | Self::RoughPlastic(_) => Spectrum::ZERO,
         }
     }
 
@@ -264,6 +336,8 @@ impl Bsdf {
             Self::RoughDielectric(b) => b.smooth.tint_t,
             Self::ThinDielectric(b) => b.tint,
             Self::SimpleTransparent(b) => Spectrum::splat((b.k_r + b.k_t).min(1.0)),
+            Self::Plastic(b) => b.albedo_estimate(),
+            Self::RoughPlastic(b) => b.albedo_estimate(),
             Self::PassThrough(_) => Spectrum::ONE,
         }
     }
@@ -283,6 +357,9 @@ impl Bsdf {
             Self::GlossySpecular(b) => phong::width(b.exponent),
             Self::RoughConductor(b) => b.alpha,
             Self::RoughDielectric(b) => b.alpha,
+            Self::Plastic(_) => 1.0,
+            Self::RoughPlastic(b) if b.has_base() => 1.0,
+            Self::RoughPlastic(b) => b.alpha(),
         }
     }
 }

@@ -8,6 +8,7 @@
 //!   finishes, scattered about the geometric normal instead, so that no light is lost there.
 
 mod black;
+pub mod coat;
 mod conductor;
 mod dielectric;
 mod glossy;
@@ -16,14 +17,17 @@ mod matte;
 mod mirror;
 mod pass_through;
 mod phong;
+mod plastic;
 mod rough_conductor;
 mod rough_dielectric;
+mod rough_plastic;
 mod simple_transparent;
 #[cfg(test)]
 mod tests;
 mod thin_dielectric;
 
 pub use black::Black;
+pub use coat::CoatTable;
 pub use conductor::Conductor;
 pub use dielectric::Dielectric;
 pub use glossy::GlossySpecular;
@@ -32,8 +36,10 @@ pub use matte::Matte;
 pub use mirror::Mirror;
 pub use pass_through::PassThrough;
 pub use phong::Phong;
+pub use plastic::Plastic;
 pub use rough_conductor::RoughConductor;
 pub use rough_dielectric::RoughDielectric;
+pub use rough_plastic::RoughPlastic;
 pub use simple_transparent::SimpleTransparent;
 pub use thin_dielectric::ThinDielectric;
 
@@ -126,16 +132,11 @@ impl SurfaceBsdf {
     /// - `wo`: unit, away from the surface.
     /// - `u_lobe`, `u2`: uniform in [0, 1).
     pub fn sample(&self, wo: Vec3, u_lobe: f32, u2: Vec2, transport: Transport) -> Option<BsdfSample> {
-        let (n, sample) = match self.delta_branches(wo) {
-            Some((frame, branches)) => (frame.n, local::choose(branches, u_lobe, self.lanes)?),
-            None => {
-                let local = self.bsdf.sample(self.frame.to_local(wo), u_lobe, u2, self.lanes)?;
-                let sample = LocalSample { wi: self.frame.to_world(local.wi), ..local };
-                if !self.keeps_sides(wo, sample.wi, sample.transmits) {
-                    return None;
-                }
-                (self.frame.n, sample)
-            }
+        let (n, sample) = if self.bsdf.is_delta() {
+            let (frame, branches) = self.delta_branches(wo)?;
+            (frame.n, local::choose(branches, u_lobe, self.lanes)?)
+        } else {
+            self.sample_lobes(wo, u_lobe, u2)?
         };
         let LocalSample { wi, weight, pdf, is_delta, transmits } = sample;
         let eta_scale = self.eta_scale(wo, transmits, transport);
@@ -144,7 +145,22 @@ impl SurfaceBsdf {
         is_usable.then_some(BsdfSample { wi, weight, pdf, is_delta, transmits, eta_scale })
     }
 
-    /// f |cos|, sr⁻¹, per lane, with every correction; 0 for polished finishes.
+    /// A direction of a finish with lobes, and the normal that it lies about. It may be the mirror direction of a
+    /// polished coat.
+    fn sample_lobes(&self, wo: Vec3, u_lobe: f32, u2: Vec2) -> Option<(Vec3, LocalSample)> {
+        let local = self.bsdf.sample(self.frame.to_local(wo), u_lobe, u2, self.lanes)?;
+        let sample = LocalSample { wi: self.frame.to_world(local.wi), ..local };
+        if self.keeps_sides(wo, sample.wi, sample.transmits) {
+            return Some((self.frame.n, sample));
+        }
+        // As polished finishes do, a polished coat falls back on the true surface rather than lose light.
+        sample
+            .is_delta
+            .then(|| (self.ng, LocalSample { wi: self.ng * (2.0 * wo.dot(self.ng)) - wo, ..sample }))
+    }
+
+    /// f |cos|, sr⁻¹, per lane, with every correction; 0 for polished finishes and without the mirror direction of a
+    /// polished coat.
     ///
     /// - `wo`, `wi`: unit, away from the surface; light flows from `wi` to `wo` for radiance, the other way for
     ///   importance.
@@ -168,7 +184,8 @@ impl SurfaceBsdf {
         self.bsdf.pdf(local_wo, local_wi, self.lanes)
     }
 
-    /// Both directions in which a polished finish sends the radiance's ray on; neither for other finishes.
+    /// Both directions in which a polished finish sends the radiance's ray on; the mirror direction of a polished coat;
+    /// neither for other finishes.
     pub fn branches(&self, wo: Vec3) -> [Option<Branch>; 2] {
         let Some((_, branches)) = self.delta_branches(wo) else {
             return [None, None];
@@ -187,14 +204,15 @@ impl SurfaceBsdf {
         Self { frame: Frame::from_normal(self.ng), ..self }
     }
 
-    /// Whether the finish is polished: it knows single directions only, and no light can be sampled towards it.
+    /// Whether the finish is polished: it knows single directions only, and no light can be sampled towards it. A
+    /// polished coat over a matte base is not, though `sample` may return its mirror direction, which `is_delta`.
     pub fn is_delta(&self) -> bool {
         self.bsdf.is_delta()
     }
 
     /// Whether part of the light is scattered evenly, as by Lambert's law.
     pub fn has_diffuse_part(&self) -> bool {
-        matches!(self.bsdf, Bsdf::Matte(_) | Bsdf::Phong(_))
+        matches!(self.bsdf, Bsdf::Matte(_) | Bsdf::Phong(_) | Bsdf::Plastic(_) | Bsdf::RoughPlastic(_))
     }
 
     /// Roughly the fraction of light that leaves the surface, 0…1 per lane: for the albedo layer.
@@ -208,7 +226,14 @@ impl SurfaceBsdf {
         self.bsdf.lobe_width()
     }
 
-    /// Branches of a polished finish with world directions, and the frame they lie in.
+    /// Fraction of light that a straight shadow ray of direction `w` takes along through the surface, 0…1 per lane, no
+    /// n² factor in it: over a closed body it cancels, and where the light ends inside one, what it gathers by being
+    /// bent together makes up for it.
+    pub fn straight_transmittance(&self, w: Vec3) -> Spectrum {
+        self.bsdf.straight_transmittance(w.dot(self.frame.n).abs().min(1.0))
+    }
+
+    /// Branches of a finish that has some with world directions, and the frame they lie in.
     fn delta_branches(&self, wo: Vec3) -> Option<(Frame, [Option<LocalBranch>; 2])> {
         let about = |frame: Frame| {
             let branches = self.bsdf.branches(frame.to_local(wo))?;

@@ -50,6 +50,6 @@ impl RoughConductor {
 }
 
 /// Normal of the facet that mirrors `wo` to `wi`; `None` where one of them is not above the surface.
-fn half_vector(wo: Vec3, wi: Vec3) -> Option<Vec3> {
+pub(super) fn half_vector(wo: Vec3, wi: Vec3) -> Option<Vec3> {
     if wo.z > 0.0 && wi.z > 0.0 { (wo + wi).try_normalize() } else { None }
 }

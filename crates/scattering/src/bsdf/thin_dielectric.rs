@@ -16,14 +16,23 @@ pub struct ThinDielectric {
 
 impl ThinDielectric {
     pub(super) fn branches(&self, wo: Vec3) -> [Option<LocalBranch>; 2] {
-        let once = fresnel_dielectric(wo.z.abs().min(1.0), self.eta);
-        // The sum of R + T²R + T²R³ + ... over the bounces within the pane, T = 1 - R: the geometric series of a
-        // lossless pane, whose transmittance (1 - R) / (1 + R) is the rest.
-        let reflected = 2.0 * once / (1.0 + once);
+        let reflected = self.reflectance(wo.z.abs().min(1.0));
         let reflection =
             LocalBranch { wi: mirrored(wo), fraction: reflected, tint: Spectrum::ONE, transmits: false };
         let transmission =
             LocalBranch { wi: -wo, fraction: 1.0 - reflected, tint: self.tint, transmits: true };
         [Some(reflection), Some(transmission)]
+    }
+
+    /// Fraction transmitted at the cosine `cos`, 0…1.
+    pub(super) fn transmittance(&self, cos: f32) -> Spectrum {
+        self.tint * (1.0 - self.reflectance(cos))
+    }
+
+    fn reflectance(&self, cos: f32) -> f32 {
+        let once = fresnel_dielectric(cos, self.eta);
+        // The sum of R + T²R + T²R³ + ... over the bounces within the pane, T = 1 - R: the geometric series of a
+        // lossless pane, whose transmittance (1 - R) / (1 + R) is the rest.
+        2.0 * once / (1.0 + once)
     }
 }

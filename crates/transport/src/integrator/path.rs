@@ -1,14 +1,15 @@
 //! Path tracing: one path per pixel and pass, light sampling and BSDF sampling combined by MIS.
 //!
 //! 1. Walk to the next surface; what lies between is filtered by the medium the path is in.
-//! 2. If the surface shines, add its light, weighted against light sampling from the last rough vertex.
+//! 2. If the surface shines, add its light, weighted against light sampling from the last rough vertex; not where
+//!    that vertex's shadow rays came this way alone, through surfaces with straight shadows.
 //! 3. If the surface is not singular, sample a light and add what reaches the vertex.
 //! 4. Go on in a direction drawn from the BSDF. Singular crossings are free: there is no limit on them.
 //! 5. Weak paths end by roulette on their throughput without the n² factor, so none dies for being inside glass.
 
 use super::per_pixel::PerPixel;
 use super::{Integrator, Prepared, RenderSettings, View};
-use crate::direct::{self, DirectLight};
+use crate::direct::{self, DirectLight, LastScatter};
 use crate::first_hit;
 use crate::stats::Stats;
 use crate::walk::{self, Event, Vertex};
@@ -54,13 +55,6 @@ impl Integrator for PathIntegrator {
     }
 }
 
-/// How the path came to where it is, for weighing the lights it hits.
-struct LastScatter {
-    /// The last vertex at which light sampling was possible, and the density of the direction taken there.
-    /// `None` after the camera and after singular vertices: light sampling could not have made the path.
-    sampled: Option<(Vec3, f32)>,
-}
-
 /// One estimate of the radiance that arrives along `ray`, which starts inside `set`.
 ///
 /// - `first`: receives what the first surface looks like.
@@ -77,14 +71,16 @@ pub fn radiance(
     let mut throughput = Spectrum::ONE;
     // The n² factors collected so far: radiance inside a medium is larger, but the path is not worth more there.
     let mut index_scale = 1.0;
-    let mut last = LastScatter { sampled: None };
+    let mut last = LastScatter::default();
     let mut visible = mask::CAMERA;
     let (mut bounces, mut crossings) = (0, 0);
     loop {
         let mut vertex = match walk::advance(world, &ray, visible, &mut set, stats) {
             Event::Sky { transmittance } => {
-                let light = direct::sky_radiance(world, &ray, last.sampled, visible);
-                result += throughput * transmittance * light;
+                if !last.is_covered {
+                    let light = direct::sky_radiance(world, &ray, last.sampled, visible);
+                    result += throughput * transmittance * light;
+                }
                 break;
             }
             Event::Surface(vertex) => vertex,
@@ -96,7 +92,9 @@ pub fn radiance(
         if let Some(sample) = first.take() {
             first_hit::record(sample, &vertex, &ray);
         }
-        result += throughput * emitted(world, &vertex, &ray, &last);
+        if !last.is_covered {
+            result += throughput * emitted(world, &vertex, &ray, &last);
+        }
 
         let wo = -ray.direction;
         if !vertex.bsdf.is_delta() && settings.max_depth.is_none_or(|limit| bounces < limit) {
@@ -110,13 +108,12 @@ pub fn radiance(
         if throughput.is_zero() {
             break;
         }
+        last.record(&vertex, &scattered);
         if scattered.is_delta {
             crossings += 1;
-            last.sampled = None;
         } else {
             bounces += 1;
             crossings = 0;
-            last.sampled = Some((vertex.hit.p, scattered.pdf));
         }
         if settings.max_depth.is_some_and(|limit| bounces > limit) {
             break;

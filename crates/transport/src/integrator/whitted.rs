@@ -1,8 +1,9 @@
 //! Suffern's recursive ray tracing: both branches at every transparent surface, direct light at every other one.
 //!
 //! 1. At a singular surface trace the reflected and the transmitted ray; each is filtered by the media on its way.
-//! 2. At a matte or Phong surface add the light of every lamp by shadow rays, soft for lamps with area, and the
-//!    ambient term. Glass throws an opaque shadow here: that is the model, `path` does it right.
+//! 2. At a matte, Phong or coated surface add the light of every lamp by shadow rays, soft for lamps with area, and the
+//!    ambient term; a polished coat is traced as in 1 besides. Glass throws an opaque shadow here, unless its finish has
+//!    straight shadows: that is the model, `path` does it right.
 //! 3. At a glossy surface trace one ray drawn from its lobe, and add the highlights of lamps too small to be hit.
 //! 4. A branch ends when the product of its weights falls below `min_weight`, or at the depth limit.
 //!
@@ -116,6 +117,7 @@ impl Tracer<'_> {
         } else if vertex.bsdf.has_diffuse_part() {
             self.world.ambient * vertex.bsdf.albedo_estimate()
                 + self.all_lights(vertex, wo, set, &mut sampler)
+                + self.both_branches(vertex, wo, set, ray.time, branch, &mut sampler)
         } else {
             self.small_lights(vertex, wo, set, &mut sampler)
                 + self.one_glossy_ray(vertex, wo, set, ray.time, branch, &mut sampler)
@@ -123,7 +125,7 @@ impl Tracer<'_> {
         emitted + reflected
     }
 
-    /// Reflected and transmitted ray of a singular surface.
+    /// Reflected and transmitted ray of a singular surface, the reflected one of a polished coat, none of others.
     fn both_branches(
         &mut self,
         vertex: &Vertex,

@@ -1,8 +1,8 @@
 //! Which items may coincide with others, and which let shadow rays pass.
 
 use super::objects::Parts;
-use crate::material::{Finish, Material};
-use crate::world::mask;
+use crate::material::{Composition, Finish, Material};
+use crate::world::{ItemInfo, mask};
 use hyaline_math::Bounds;
 use hyaline_scattering::{BoundaryKind, Medium, MediumId};
 use std::collections::BTreeSet;
@@ -20,8 +20,13 @@ pub(super) fn mark(parts: &mut Parts, media: &[Medium], materials: &[Material], 
     let mut has_permeable = false;
     for i in 0..parts.items.len() {
         let kind = parts.boundaries[parts.items[i].object.0 as usize];
-        let met = if kind == BoundaryKind::None { Met::default() } else { meets(parts, &bounds, i) };
-        parts.items[i].may_coincide = met.anything;
+        let has_holes = materials_of(&parts.items[i]).any(|m| materials[m as usize].has_holes());
+        // Opaque surfaces are looked for where bodies are met; with holes they look for bodies.
+        let met = match kind {
+            BoundaryKind::None if !has_holes => Met::default(),
+            _ => meets(parts, &bounds, i),
+        };
+        parts.items[i].may_coincide = if kind == BoundaryKind::None { met.boundary } else { met.anything };
         let ior = |medium: MediumId| media[medium.index()].ior;
         let is_permeable = match kind {
             BoundaryKind::None => false,
@@ -30,14 +35,31 @@ pub(super) fn mark(parts: &mut Parts, media: &[Medium], materials: &[Material], 
             }
             BoundaryKind::Interface { outside, inside } => met.solid || ior(outside) == ior(inside),
         };
-        let passes = |material: u32| matches!(materials[material as usize].finish, Finish::PassThrough);
-        let item = &parts.items[i];
-        if is_permeable || passes(item.material) || item.slot_materials.iter().any(|&m| passes(m)) {
+        // Where boundaries coincide the finish may be that of the other object.
+        let others = met.others.iter().filter(|_| kind != BoundaryKind::None);
+        let mut candidates = others.chain([&i]).flat_map(|&j| materials_of(&parts.items[j]));
+        if is_permeable || candidates.any(|m| may_pass(materials, m)) {
             parts.geometry[i].mask &= !mask::BLOCKS;
             has_permeable = true;
         }
     }
     has_permeable
+}
+
+/// The materials of all faces of an item.
+fn materials_of(item: &ItemInfo) -> impl Iterator<Item = u32> {
+    item.slot_materials.iter().copied().chain([item.material])
+}
+
+/// Whether shadow rays may pass a material straight, where media don't say so.
+fn may_pass(materials: &[Material], index: u32) -> bool {
+    let material = &materials[index as usize];
+    let passes = match &material.composition {
+        Composition::Single(Finish::PassThrough) => true,
+        Composition::Single(_) => material.straight_shadows,
+        Composition::Blend(first, second, _) => may_pass(materials, *first) || may_pass(materials, *second),
+    };
+    passes || material.has_holes() || material.back.is_some_and(|back| may_pass(materials, back))
 }
 
 /// The media that solids may stand in: the given ones, and both sides of every sheet.
@@ -55,6 +77,8 @@ struct Met {
     anything: bool,
     boundary: bool,
     solid: bool,
+    /// Items that bound media.
+    others: Vec<usize>,
 }
 
 /// Looks at the items whose bounds overlap those of item `i`. Surfaces of one closed shape do not count: it is made
@@ -65,7 +89,10 @@ fn meets(parts: &Parts, bounds: &[Bounds], i: usize) -> Met {
     for j in (0..bounds.len()).filter(|&j| of(j) != of(i) && bounds[i].overlaps(&bounds[j])) {
         let kind = parts.boundaries[parts.items[j].object.0 as usize];
         met.anything = true;
-        met.boundary |= kind != BoundaryKind::None;
+        if kind != BoundaryKind::None {
+            met.boundary = true;
+            met.others.push(j);
+        }
         met.solid |= matches!(kind, BoundaryKind::Solid { .. });
     }
     met

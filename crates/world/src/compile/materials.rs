@@ -1,10 +1,13 @@
-//! Materials: texture names become indices, metals become indices of refraction.
+//! Materials: names become indices, metals become indices of refraction.
 
 use super::names::nearest;
-use super::{Library, lanes};
-use crate::material::{ColorInput, Finish, Material, ScalarInput};
+use super::{Library, blends, lanes};
+use crate::material::{ColorInput, Composition, Finish, Material, ScalarInput};
+use crate::relief::Relief;
+use hyaline_optics::microfacet::alpha_from_roughness;
+use hyaline_scattering::bsdf::{CoatTable, MIN_ALPHA};
 use hyaline_scene::{
-    ColorSource, Located, MaterialDescription, MaterialKind, Metal, Rgb, ScalarSource, SceneError,
+    ColorSource, Located, MaterialDescription, MaterialKind, Metal, Note, Rgb, ScalarSource, SceneError,
 };
 use hyaline_spectrum::catalogue;
 
@@ -13,15 +16,96 @@ const MORE_LIGHT: &str = "a surface can't give more light than it gets: keep it 
 /// Compiles all materials, in order.
 ///
 /// # Errors
-/// A texture or metal that is not there, a reflectance outside 0…1.
-pub(super) fn compile_all(library: &Library) -> Result<Vec<Material>, SceneError> {
-    library.description.materials.iter().map(|material| compile(library, material)).collect()
+/// A texture, metal or material that is not there, a number that cannot be, a material that is made of itself.
+pub(super) fn compile_all(library: &Library, notes: &mut Vec<Note>) -> Result<Vec<Material>, SceneError> {
+    let described = &library.description.materials;
+    let materials = described
+        .iter()
+        .map(|m| compile(library, m, notes))
+        .collect::<Result<Vec<Material>, SceneError>>()?;
+    blends::check(library, &materials)?;
+    Ok(materials)
 }
 
-fn compile(library: &Library, description: &Located<MaterialDescription>) -> Result<Material, SceneError> {
+fn compile(
+    library: &Library,
+    description: &Located<MaterialDescription>,
+    notes: &mut Vec<Note>,
+) -> Result<Material, SceneError> {
+    let material = |name: &Located<String>| Ok::<u32, SceneError>(library.materials.find(name)? as u32);
+    let composition = match &description.kind {
+        MaterialKind::Blend { first, second, weight } => {
+            let weight = share(library, description, "weight", weight)?;
+            Composition::Blend(material(first)?, material(second)?, weight)
+        }
+        _ => Composition::Single(finish(library, description)?),
+    };
+    Ok(Material {
+        straight_shadows: description.straight_shadows && can_cast_straight(description, &composition, notes),
+        composition,
+        two_sided: description.two_sided,
+        back: description.back.as_ref().map(material).transpose()?,
+        opacity: share(library, description, "opacity", &description.opacity)?,
+        relief: description.relief.as_ref().map(|r| relief(library, r)).transpose()?,
+    })
+}
+
+/// Whether shadow rays may pass the finish straight: a rough one has no straight way, an opaque one none at all.
+fn can_cast_straight(
+    description: &Located<MaterialDescription>,
+    composition: &Composition,
+    notes: &mut Vec<Note>,
+) -> bool {
+    let can = match composition {
+        Composition::Single(Finish::Dielectric { roughness, .. }) => {
+            matches!(roughness, ScalarInput::Constant(r) if alpha_from_roughness(*r) < MIN_ALPHA)
+        }
+        Composition::Single(finish) => finish.is_transparent(),
+        Composition::Blend(..) => false,
+    };
+    if !can {
+        let message = format!(
+            "material '{}' has straight_shadows, which only polished transparent finishes can have: ignored",
+            description.name
+        );
+        notes.push(Note::warning(&description.source, message));
+    }
+    can
+}
+
+/// A number that must lie within 0…1.
+fn share(
+    library: &Library,
+    material: &Located<MaterialDescription>,
+    what: &str,
+    source: &ScalarSource,
+) -> Result<ScalarInput, SceneError> {
+    match source {
+        ScalarSource::Constant(value) if !(0.0..=1.0).contains(value) => {
+            let message = format!("material '{}' has {what} = {value}", material.name);
+            Err(SceneError::at(&material.source, message).with_remedy("give a number within 0…1"))
+        }
+        ScalarSource::Constant(_) | ScalarSource::Texture(_) => scalar_input(library, source),
+    }
+}
+
+fn relief(library: &Library, description: &hyaline_scene::Relief) -> Result<Relief, SceneError> {
+    use hyaline_scene::Relief as Described;
+    let texture = |name: &Located<String>| Ok::<u32, SceneError>(library.textures.find(name)? as u32);
+    Ok(match description {
+        Described::Bump { height, scale } => Relief::Bump { texture: texture(height)?, scale: *scale },
+        Described::Normals { texture: name } => Relief::Normals { texture: texture(name)? },
+        Described::Slopes { texture: name, scale } => {
+            Relief::Slopes { texture: texture(name)?, scale: *scale }
+        }
+    })
+}
+
+/// A finish by itself.
+fn finish(library: &Library, description: &Located<MaterialDescription>) -> Result<Finish, SceneError> {
     let color = |source: &ColorSource| color_input(library, description, source);
     let scalar = |source: &ScalarSource| scalar_input(library, source);
-    let finish = match &description.kind {
+    Ok(match &description.kind {
         MaterialKind::Matte { reflectance } => Finish::Matte { reflectance: color(reflectance)? },
         MaterialKind::Phong { diffuse, specular, exponent } => {
             if let (ColorSource::Constant(diffuse), ColorSource::Constant(specular)) = (diffuse, specular)
@@ -65,14 +149,29 @@ fn compile(library: &Library, description: &Located<MaterialDescription>) -> Res
         MaterialKind::ThinDielectric { ior, tint } => {
             Finish::ThinDielectric { ior: *ior, tint: color(tint)? }
         }
-        MaterialKind::Plastic { .. } | MaterialKind::Blend { .. } => {
-            let message = format!("material '{}' can't be rendered yet", description.name);
-            return Err(SceneError::at(&description.source, message).with_remedy("use another kind"));
-        }
+        MaterialKind::Plastic { diffuse, specular, ior, roughness, nonlinear } => Finish::Plastic {
+            ior: coat_index(description, *ior)?,
+            coats: match roughness {
+                ScalarSource::Constant(r) => CoatTable::uniform(*ior, alpha_from_roughness(*r)),
+                ScalarSource::Texture(_) => CoatTable::varying(*ior),
+            },
+            roughness: scalar(roughness)?,
+            diffuse: color(diffuse)?,
+            specular: color(specular)?,
+            nonlinear: *nonlinear,
+        },
         MaterialKind::PassThrough => Finish::PassThrough,
-        MaterialKind::Black => Finish::Black,
-    };
-    Ok(Material { finish, two_sided: description.two_sided })
+        MaterialKind::Blend { .. } | MaterialKind::Black => Finish::Black,
+    })
+}
+
+/// Index of a coat over that of its surroundings.
+fn coat_index(material: &Located<MaterialDescription>, ior: f32) -> Result<f32, SceneError> {
+    if ior.is_finite() && ior > 0.0 {
+        return Ok(ior);
+    }
+    let message = format!("material '{}' has a coat of index {ior}", material.name);
+    Err(SceneError::at(&material.source, message).with_remedy("give a number above 0; lacquer has about 1.5"))
 }
 
 fn color_input(

@@ -7,6 +7,7 @@
 //! 4. Lights without a shape, cameras.
 //! 5. Where each camera is: found by looking around.
 
+mod blends;
 mod cameras;
 mod coincidence;
 mod lights;
@@ -87,7 +88,7 @@ impl World {
             media.push(media::compile(medium, &mut notes)?);
         }
         let textures: Vec<Texture> = description.textures.iter().map(|t| Texture::new(&t.value)).collect();
-        let materials = materials::compile_all(&library)?;
+        let materials = materials::compile_all(&library, &mut notes)?;
         let mut parts = objects::compile_all(&library, &materials, &mut notes)?;
 
         let bounds = parts.bounds();

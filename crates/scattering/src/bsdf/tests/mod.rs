@@ -2,6 +2,7 @@
 
 mod delta;
 mod energy;
+mod plastic;
 mod sampling;
 mod shading_normal;
 
@@ -32,7 +33,15 @@ fn examples() -> Vec<(&'static str, Bsdf)> {
         ("ground glass from within", Bsdf::dielectric(1.0 / 1.5, WHITE, WHITE, 0.3)),
         ("tinted ice in water", Bsdf::dielectric(1.31 / 1.333, gray, orange, 0.5)),
         ("dull diamond", Bsdf::dielectric(2.42, WHITE, orange, 1.0)),
+        ("varnish", plastic(1.5, WHITE, WHITE, 0.1)),
+        ("dull varnish", plastic(1.9, orange, gray, 0.7)),
+        ("a rough coat over nothing", plastic(1.5, Spectrum::ZERO, orange, 0.3)),
     ]
+}
+
+/// A coated finish in which light takes the color of the base each time it is sent back.
+fn plastic(eta: f32, diffuse: Spectrum, specular: Spectrum, alpha: f32) -> Bsdf {
+    Bsdf::plastic(eta, &CoatTable::uniform(eta, alpha), diffuse, specular, true, alpha)
 }
 
 /// A finish on a flat surface with its normals along +z, arrived at from there.

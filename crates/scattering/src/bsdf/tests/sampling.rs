@@ -88,6 +88,10 @@ fn permuted_lanes_come_out_permuted() {
             let Dielectric { eta, tint_r, tint_t } = b.smooth;
             Bsdf::dielectric(eta, turned(tint_r), turned(tint_t), b.alpha)
         }
+        Bsdf::RoughPlastic(mut b) => {
+            (b.specular, b.base) = (turned(b.specular), turned(b.base));
+            Bsdf::RoughPlastic(b)
+        }
         other => panic!("no example is {other:?}"),
     };
     let mut random = Random::from_seed(14);

@@ -18,6 +18,7 @@ fn all_finishes() -> Vec<(&'static str, Bsdf)> {
         ("glass from within", Bsdf::dielectric(1.0 / 1.5, WHITE, WHITE, 0.0)),
         ("pane", Bsdf::ThinDielectric(ThinDielectric { eta: 1.5, tint: WHITE })),
         ("simple transparent", Bsdf::SimpleTransparent(simple)),
+        ("lacquer", plastic(1.5, spectrum(0.6, 0.3, 0.2), WHITE, 0.0)),
         ("nothing", Bsdf::PassThrough(PassThrough)),
     ]);
     finishes
