@@ -7,10 +7,11 @@
 
 use super::ball::Ball;
 use super::beam::Beam;
+use super::cluster::{self, Cluster, Piece};
 use super::grid::Grid;
 use super::patch::Patch;
 use super::turn::turned_frame;
-use super::{Departure, cluster, patch};
+use super::{Departure, patch};
 use hyaline_geometry::{AreaSample, ItemGeometry, Primitive};
 use hyaline_math::{DVec2, Frame, Vec2};
 use hyaline_sampling::Distribution1d;
@@ -40,8 +41,8 @@ struct Part {
 #[derive(Clone, Debug)]
 enum Place {
     Shape(Box<Primitive>, UnitBox),
-    /// Faces by area.
-    Faces(Vec<u32>, Distribution1d),
+    /// Pieces of faces by area.
+    Mesh(Vec<Piece>, Distribution1d),
 }
 
 impl LampCells {
@@ -102,10 +103,12 @@ impl Place {
             Self::Shape(primitive, unit_box) => {
                 Some(primitive.sample_area(unit_box.at(u.as_dvec2()).as_vec2()))
             }
-            Self::Faces(faces, by_area) => {
+            Self::Mesh(pieces, by_area) => {
                 let Light::Mesh(mesh) = light else { return None };
                 let pick = by_area.sample(u.x);
-                Some(mesh.sample_face(faces[pick.index], Vec2::new(pick.u, u.y)))
+                let piece = &pieces[pick.index];
+                let inside = piece.unit_box().at(DVec2::new(f64::from(pick.u), f64::from(u.y)));
+                Some(mesh.sample_face(piece.face, inside.as_vec2()))
             }
         }
     }
@@ -113,7 +116,8 @@ impl Place {
     fn memory(&self) -> usize {
         match self {
             Self::Shape(..) => size_of::<Primitive>(),
-            Self::Faces(faces, _) => 2 * size_of_val(&faces[..]),
+            // With a step count for each piece.
+            Self::Mesh(pieces, _) => size_of_val(&pieces[..]) + pieces.len() * size_of::<u32>(),
         }
     }
 }
@@ -129,17 +133,14 @@ fn places(geometry: &ItemGeometry, count: u32) -> Vec<(Place, f64, Patch)> {
             })
             .collect(),
         ItemGeometry::Mesh { mesh, transform } => {
-            let (mesh, transform) = (mesh.mesh(), transform.as_ref());
-            let area = |face: u32| cluster::area(mesh, transform, face);
-            let faces: Vec<u32> = (0..mesh.face_count() as u32).collect();
-            let total: f64 = faces.iter().map(|&face| area(face)).sum();
-            let clusters = cluster::cut(mesh, transform, faces, count);
-            let place = |cluster: cluster::Cluster| {
-                let areas: Vec<f64> = cluster.faces.iter().map(|&face| area(face)).collect();
-                let share = areas.iter().sum::<f64>() / total;
-                let by_area = Distribution1d::from_f64(areas.into_iter()).ok()?;
-                Some((Place::Faces(cluster.faces, by_area), share, cluster.patch))
+            let faces: Vec<u32> = (0..mesh.mesh().face_count() as u32).collect();
+            let place = |Cluster { pieces, patch }| {
+                let shares = pieces.iter().map(|piece| f64::from(piece.share));
+                let share = shares.clone().sum();
+                let by_area = Distribution1d::from_f64(shares).ok()?;
+                Some((Place::Mesh(pieces, by_area), share, patch))
             };
+            let clusters = cluster::cut(mesh.mesh(), transform.as_ref(), faces, count);
             clusters.into_iter().filter_map(place).collect()
         }
     }
