@@ -198,6 +198,23 @@ fn the_flux_on_the_ball_is_that_of_the_closed_forms() {
 }
 
 #[test]
+fn a_small_ball_at_the_edge_of_the_scene_gets_its_light_from_the_sky_and_the_sun() {
+    let (center, radius) = (DVec3::new(2.6, 0.4, -2.4), 0.15);
+    let mut kit = SceneKit::new();
+    kit.matte("gray", 0.5).surface("floor", floor(-1.0, 3.0), "gray");
+    kit.medium("glass", 1.5).solid("ball", sphere(center, radius), "glass");
+    let (mut sky, mut lit) = (kit.clone(), kit);
+    sky.sky(0.7);
+    lit.light(sun());
+    for maps in [ProjectionMaps::Cells, ProjectionMaps::Objects] {
+        let from_sky = landing_on(&sky.world(), maps, 100_000, center, radius);
+        assert_value(&from_sky, 4.0 * PI * radius * radius * PI * 0.7, "sky");
+        let from_sun = landing_on(&lit.world(), maps, 100_000, center, radius);
+        assert_value(&from_sun, 1.5 * PI * radius * radius, "sun");
+    }
+}
+
+#[test]
 fn photons_that_are_aimed_are_fewer_by_the_fraction_and_all_alike() {
     let mut sky = stage();
     sky.sky(0.7);
