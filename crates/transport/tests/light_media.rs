@@ -107,6 +107,15 @@ fn the_sides_of_a_glowing_body_shine_into_what_is_on_them() {
     assert_eq!(start_media(&kit), ["water"]);
     kit.description.objects.last_mut().unwrap().emission.as_mut().unwrap().two_sided = true;
     assert_eq!(start_media(&kit), ["water", "fog"]);
+    let world = kit.world();
+    let emitter = PhotonEmitter::new(&world, ProjectionMaps::None, 8);
+    for number in 0..100 {
+        let mut sampler = Sampler::new(SamplerKind::Sobol, 1, (0, 0), number);
+        let photon = emitter.emit(&mut sampler).unwrap();
+        let goes_in = photon.ray.origin.dot(photon.ray.direction) < 0.0;
+        let medium = &kit.description.media[photon.set.active().index() - 1].name;
+        assert_eq!(medium, if goes_in { "fog" } else { "water" });
+    }
 }
 
 #[test]

@@ -215,6 +215,21 @@ fn a_small_ball_at_the_edge_of_the_scene_gets_its_light_from_the_sky_and_the_sun
 }
 
 #[test]
+fn a_small_ball_right_under_a_large_lamp_gets_all_of_its_light() {
+    let (center, radius) = (DVec3::new(0.3, -0.08, 0.2), 0.03);
+    let mut kit = SceneKit::new();
+    kit.medium("glass", 1.5).solid("ball", sphere(center, radius), "glass");
+    kit.lamp("lamp", rectangle(DVec3::ZERO, DVec3::X * 3.0, DVec3::Z * 3.0), 2.0);
+    let per_area = |x: f64, z: f64| {
+        let to_ball = center - DVec3::new(x, 0.0, z);
+        PI * 2.0 * radius * radius * -to_ball.y / to_ball.length().powi(3)
+    };
+    let expected = integrate_rectangle(per_area, [-3.0, 3.0], [-3.0, 3.0], 400, 400);
+    let moments = landing_on(&kit.world(), ProjectionMaps::Cells, 100_000, center, radius);
+    assert_value(&moments, expected, "lamp");
+}
+
+#[test]
 fn photons_that_are_aimed_are_fewer_by_the_fraction_and_all_alike() {
     let mut sky = stage();
     sky.sky(0.7);
