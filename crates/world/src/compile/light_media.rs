@@ -56,6 +56,10 @@ fn lamps(library: &Library, world: &World, notes: &mut Vec<Note>) -> Result<Vec<
         let name = &world.object_names[info.object.0 as usize];
         let object = &library.description.objects[library.objects.find(&name.as_str().into())?];
         let emission = object.emission.as_ref();
+        if emission.is_some_and(|emission| emission.texture.is_some()) {
+            let message = format!("light '{name}': the texture of its emission is ignored; it shines evenly");
+            notes.push(Note::warning(&object.source, message));
+        }
         let declared = emission.map_or(Ok(surrounding), |e| library.medium_or(&e.medium, surrounding))?;
         let mut look =
             Look { world, item, declared, name: format!("light '{name}'"), source: &object.source, notes };

@@ -84,10 +84,22 @@ fn bound_turned(primitive: &Primitive, unit_box: &UnitBox, n: DVec3) -> Patch {
     let farthest = (reach * reach + chord2).sqrt() * stretch(&linear);
     // From the middle around the axis, then along the profile.
     let spread = profile.turning + half_width * profile.cosine;
-    // An uneven placement bends normals apart.
-    let is_even = spread < 1e-9 || similarity_scale(&linear).is_some();
-    let normals = if is_even { Cone { axis: n, half_angle: spread.min(PI) } } else { Cone::ALL };
+    let normals = Cone { axis: n, half_angle: placed_spread(primitive, unit_box, spread.min(PI)) };
     Patch { ball: Ball::about(center, farthest), normals }
+}
+
+/// The angle between placed normals when it is `spread` at most in object space: uneven placements bend them apart.
+fn placed_spread(primitive: &Primitive, unit_box: &UnitBox, spread: f64) -> f64 {
+    let placement = &primitive.transform;
+    if similarity_scale(&placement.linear()).is_some() {
+        return spread;
+    }
+    // The images of the others end in a ball about the end of that of the middle one.
+    let middle = placement.normal(primitive.shape.sample_area(unit_box.center()).1);
+    let map = DMat3::from_cols_array_2d(&DVec3::AXES.map(|axis| placement.normal(axis).to_array()));
+    let apart = stretch(&map) * 2.0 * float::sin(0.5 * spread);
+    let sine = apart / middle.length();
+    if sine < 1.0 { float::asin(sine) } else { PI }
 }
 
 /// A part of a profile.
