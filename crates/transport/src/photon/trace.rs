@@ -122,7 +122,11 @@ struct Flight<'a> {
     start_power: f32,
     /// What it would be kept as.
     kind: PhotonKind,
+    /// Surfaces met so far.
+    events: u32,
+    /// Those of them that scattered, singular ones not counted.
     bounces: u32,
+    /// Singular ones in a row.
     crossings: u32,
 }
 
@@ -135,6 +139,7 @@ impl<'a> Flight<'a> {
             flux: start.flux,
             start_power: start.flux.mean(tracer.world.lanes),
             kind: PhotonKind::Direct,
+            events: 0,
             bounces: 0,
             crossings: 0,
         }
@@ -166,7 +171,13 @@ impl<'a> Flight<'a> {
     }
 
     fn photon_at(&self, vertex: &Vertex) -> Photon {
-        Photon { p: vertex.hit.p, wi: -self.ray.direction, flux: self.flux, kind: self.kind }
+        Photon {
+            p: vertex.hit.p,
+            direction: self.ray.direction,
+            flux: self.flux,
+            kind: self.kind,
+            bounces: self.events,
+        }
     }
 
     /// Draws where the photon goes on; returns whether it does.
@@ -183,6 +194,7 @@ impl<'a> Flight<'a> {
         } else {
             self.kind = PhotonKind::Indirect;
         }
+        self.events += 1;
         if scattered.is_delta {
             self.crossings += 1;
         } else {

@@ -16,16 +16,19 @@
 //! Source: Jensen, Realistic Image Synthesis Using Photon Mapping, 2001, §9.2.
 
 use super::strand::{Origin, Strand};
-use super::{PhotonMaps, RenderSettings, World};
 use crate::direct::DirectLight;
 use crate::first_hit;
-use crate::photon::gather::Scratch;
+use crate::integrator::RenderSettings;
+use crate::photon::gather::{Estimate, Gathered, PhotonMap};
+use crate::photon::maps::PhotonMaps;
 use crate::photon::specular::is_specular;
+use crate::photon::tree::Nearest;
 use crate::stats::Stats;
 use crate::walk::Vertex;
 use hyaline_film::PixelSample;
 use hyaline_sampling::Sampler;
 use hyaline_spectrum::Spectrum;
+use hyaline_world::World;
 
 /// Follows camera paths, one after the other.
 pub(super) struct Eye<'a> {
@@ -33,17 +36,17 @@ pub(super) struct Eye<'a> {
     settings: &'a RenderSettings,
     maps: &'a PhotonMaps,
     stats: &'a mut Stats,
-    scratch: Scratch,
+    scratch: Nearest,
 }
 
 /// What is done at a surface before the path goes on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Role {
+pub(super) enum Role {
     /// Nothing is stored here; the path goes on.
     Specular,
     /// Direct light and caustics are added; the rest is gathered.
     Gather,
-    /// All light is added.
+    /// All light is added, and only what a polished part of the finish shows is missing.
     LookUp,
 }
 
@@ -54,7 +57,7 @@ impl<'a> Eye<'a> {
         maps: &'a PhotonMaps,
         stats: &'a mut Stats,
     ) -> Self {
-        Self { world, settings, maps, stats, scratch: Scratch::default() }
+        Self { world, settings, maps, stats, scratch: Nearest::default() }
     }
 
     /// An estimate of the radiance that a strand brings.
@@ -71,15 +74,12 @@ impl<'a> Eye<'a> {
             if let Some(sample) = first.take() {
                 first_hit::record(sample, &vertex, &strand.ray);
             }
-            let role = self.role(&vertex, &strand);
-            if self.settings.max_depth.is_none_or(|limit| strand.bounces < limit) {
-                result += strand.throughput * self.light_at(&vertex, &strand, role, sampler);
-            }
+            let (light, role) = self.light_at(&vertex, &strand, sampler);
+            result += strand.throughput * light;
             if role == Role::Gather && !strand.is_split && self.settings.photon_map.gather_rays > 1 {
                 return result + self.follow_split(&vertex, &strand, sampler);
             }
-            let limit = self.settings.max_depth;
-            if !strand.scatter(self.world, &vertex, role == Role::LookUp, limit, sampler) {
+            if !strand.scatter(self.world, &vertex, role, self.settings.max_depth, sampler) {
                 break;
             }
         }
@@ -92,52 +92,69 @@ impl<'a> Eye<'a> {
         let count = self.settings.photon_map.gather_rays;
         for i in 0..count {
             let (mut strand, mut sampler) = (strand.split(count), sampler.fork(i));
-            if strand.scatter(self.world, vertex, false, self.settings.max_depth, &mut sampler) {
+            if strand.scatter(self.world, vertex, Role::Gather, self.settings.max_depth, &mut sampler) {
                 result += self.follow(strand, &mut sampler, None);
             }
         }
         result
     }
 
+    /// What the surface is for a strand that comes from afar.
     fn role(&self, vertex: &Vertex, strand: &Strand) -> Role {
-        if is_specular(&vertex.bsdf) {
-            return Role::Specular;
-        }
-        let looks_up = match strand.origin {
-            Origin::Camera => !self.settings.photon_map.final_gather && vertex.bsdf.has_diffuse_part(),
-            Origin::Gather { distance, .. } => distance >= self.maps.corner,
+        let gathers = match strand.origin {
+            Origin::Camera => self.settings.photon_map.final_gather || !vertex.bsdf.has_diffuse_part(),
+            Origin::Gather { .. } => false,
         };
-        if looks_up { Role::LookUp } else { Role::Gather }
+        match (is_specular(&vertex.bsdf), gathers) {
+            (true, _) => Role::Specular,
+            (false, true) => Role::Gather,
+            (false, false) => Role::LookUp,
+        }
     }
 
-    /// The light that the surface sends back along the strand and that is counted here.
-    fn light_at(&mut self, vertex: &Vertex, strand: &Strand, role: Role, sampler: &mut Sampler) -> Spectrum {
+    /// The light that the surface sends back along the strand and that is counted here; and what the surface is.
+    fn light_at(&mut self, vertex: &Vertex, strand: &Strand, sampler: &mut Sampler) -> (Spectrum, Role) {
+        let role = self.role(vertex, strand);
+        if self.settings.max_depth.is_some_and(|limit| strand.bounces >= limit) {
+            return (Spectrum::ZERO, role);
+        }
         match role {
-            Role::Specular if strand.origin != Origin::Camera || vertex.bsdf.is_delta() => Spectrum::ZERO,
-            Role::Specular => self.direct_light(vertex, strand, true, sampler),
-            Role::Gather => {
-                self.direct_light(vertex, strand, true, sampler) + self.caustics(vertex, strand)
-            }
+            Role::Specular if strand.origin != Origin::Camera || vertex.bsdf.is_delta() => (Spectrum::ZERO, role),
+            Role::Specular => (self.direct_light(vertex, strand, role, sampler), role),
+            Role::Gather => (self.first_light(vertex, strand, role, sampler), role),
             Role::LookUp => {
-                let mut light = self.stored_light(vertex, strand);
-                if !self.maps.holds_all {
-                    light += self.direct_light(vertex, strand, false, sampler);
-                    light += self.caustics(vertex, strand);
+                let stored = self.look_up(&self.maps.global, &self.maps.global_estimate, vertex, strand);
+                if strand.is_shorter_than(stored.radius) {
+                    (self.first_light(vertex, strand, Role::Gather, sampler), Role::Gather)
+                } else if self.maps.holds_all {
+                    (stored.value, role)
+                } else {
+                    (stored.value + self.first_light(vertex, strand, role, sampler), role)
                 }
-                light
             }
         }
     }
 
-    fn direct_light(
+    /// Light from the lights, straight or over specular surfaces.
+    fn first_light(&mut self, vertex: &Vertex, strand: &Strand, role: Role, sampler: &mut Sampler) -> Spectrum {
+        let caustics = self.look_up(&self.maps.caustic, &self.maps.caustic_estimate, vertex, strand);
+        self.direct_light(vertex, strand, role, sampler) + caustics.value
+    }
+
+    fn direct_light(&mut self, vertex: &Vertex, strand: &Strand, role: Role, sampler: &mut Sampler) -> Spectrum {
+        let (wo, set) = (-strand.ray.direction, &strand.set);
+        // From a surface that looks up no ray goes on that could meet a light.
+        let use_mis = role != Role::LookUp;
+        DirectLight { world: self.world, vertex, wo, set, use_mis }.sample_one(sampler, self.stats)
+    }
+
+    fn look_up(
         &mut self,
+        map: &PhotonMap,
+        estimate: &Estimate,
         vertex: &Vertex,
         strand: &Strand,
-        use_mis: bool,
-        sampler: &mut Sampler,
-    ) -> Spectrum {
-        let light =
-            DirectLight { world: self.world, vertex, wo: -strand.ray.direction, set: &strand.set, use_mis };
-        light.sample_one(sampler, self.stats)
+    ) -> Gathered {
+        estimate.radiance(map, &vertex.hit, &vertex.bsdf, -strand.ray.direction, |_| true, &mut self.scratch)
     }
 }

@@ -1,5 +1,6 @@
 //! A path of the eye, from the camera or from a place that gathers.
 
+use super::eye::Role;
 use crate::direct;
 use crate::photon::specular::is_specular_event;
 use crate::roulette::{PATIENCE_WITH_SHADING_NORMALS, eye_survival};
@@ -105,13 +106,18 @@ impl Strand {
         }
     }
 
-    /// Goes on in a direction drawn at `vertex`, or, where the surface has looked its light up, only in a polished
-    /// one. Returns whether it goes on.
+    /// Whether it comes from a surface that gathers and is nearer than `radius`.
+    pub(super) fn is_shorter_than(&self, radius: f32) -> bool {
+        matches!(self.origin, Origin::Gather { distance, .. } if distance < radius)
+    }
+
+    /// Goes on in a direction drawn at `vertex`, where the surface has looked its light up only in a polished one.
+    /// Returns whether it goes on.
     pub(super) fn scatter(
         &mut self,
         world: &World,
         vertex: &Vertex,
-        has_looked_up: bool,
+        role: Role,
         max_bounces: Option<u32>,
         sampler: &mut Sampler,
     ) -> bool {
@@ -119,7 +125,7 @@ impl Strand {
         let wo = -self.ray.direction;
         let Some(scattered) = vertex.bsdf.sample(wo, u_lobe, u, Transport::Radiance) else { return false };
         let is_specular = is_specular_event(&vertex.bsdf, scattered.is_delta);
-        if has_looked_up && !is_specular {
+        if role == Role::LookUp && !is_specular {
             return false;
         }
         self.note(vertex, &scattered, is_specular);
