@@ -119,7 +119,7 @@ fn light_of_a_point_through_glass_comes_from_the_caustic_map_in_every_way() {
     }
     // All of it comes to rest at the wall, so that the wall's mean irradiance is known.
     let paths = means(&world, "path", few_photons(), 20);
-    assert!(paths.mean() < 0.97 * first.mean(), "path finds {} of {}", paths.mean(), first.mean());
+    assert!(paths.mean() < 0.99 * first.mean(), "path finds {} of {}", paths.mean(), first.mean());
 }
 
 fn ways() -> [(&'static str, PhotonMapSettings); 5] {
@@ -161,7 +161,7 @@ fn finishes_between_polished_and_matte_lose_no_light() {
 #[test]
 fn a_sky_and_lamps_that_shine_through_each_other_are_counted_once() {
     let mut kit = SceneKit::new();
-    kit.matte("matte", 0.6).surface("floor", floor(-0.7, 30.0), "matte").sky(0.7);
+    kit.matte("matte", 0.6).surface("floor", floor(-0.7, 3.0), "matte").sky(0.7);
     kit.medium("glass", 1.5).solid("lens", sphere(DVec3::new(0.1, 0.0, 0.0), 0.6), "glass");
     kit.lamp("lamp", square_lamp(DVec3::new(0.4, 1.6, -0.3), 0.3), 6.0);
     kit.camera(DVec3::new(0.0, 1.0, 2.6), DVec3::new(0.0, -0.4, 0.0));
