@@ -4,6 +4,7 @@ pub mod emission;
 pub mod gather;
 pub mod kernel;
 pub mod maps;
+mod projection;
 pub mod record;
 pub mod specular;
 pub mod trace;
