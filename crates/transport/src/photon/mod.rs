@@ -8,4 +8,4 @@ pub mod tree;
 pub use gather::{Estimate, Gathered, PhotonMap};
 pub use kernel::Kernel;
 pub use record::{PackedPhoton, Photon, PhotonKind};
-pub use tree::{Disc, Nearest, PointTree, Region};
+pub use tree::{Accept, All, Disc, Nearest, PointTree, Region};
