@@ -4,10 +4,13 @@ use super::PointTree;
 use super::layout::{FAN, PACKET, Packet};
 use super::nearest::Nearest;
 use super::region::{Probe, Region};
-use super::simd::{Distances, Lanes, Query};
+use super::simd::{Distances, Lanes, Query, prefetch};
 
 /// Most nodes that wait: trees have at most 10 levels, and of each all children but the one being looked at can wait.
 const STACK_SIZE: usize = 10 * FAN;
+
+/// The mask of a packet that is inside as a whole.
+const ALL_LANES: u32 = (1 << PACKET) - 1;
 
 /// Whether a point counts.
 pub trait Accept {
@@ -98,15 +101,27 @@ impl<T: Copy + Send + Sync, V: FnMut(u32, f32)> Query for Within<'_, T, V> {
             let id: u32 = stack[waiting];
             let (_, mask) = lanes.box_distances(&probe, &tree.nodes[id as usize], limit);
             let first_child = id * FAN as u32 + 1;
-            for slot in set_bits(mask) {
-                if first_child < tree.first_leaf {
+            if first_child < tree.first_leaf {
+                for slot in set_bits(mask) {
                     stack[waiting] = first_child + slot;
                     waiting += 1;
-                    continue;
                 }
+                continue;
+            }
+            for slot in set_bits(mask) {
+                prefetch(tree.leaf(first_child + slot).0);
+            }
+            for slot in set_bits(mask) {
                 let (packets, first) = tree.leaf(first_child + slot);
                 for (packet, first) in packets.iter().zip((first..).step_by(PACKET)) {
                     let (Distances(distances), mask) = lanes.point_distances(&probe, packet, limit);
+                    if mask == ALL_LANES {
+                        // Deep inside a region this is the rule, and needs no search for bits.
+                        for (i, distance) in (first..).zip(distances) {
+                            visit(i, distance);
+                        }
+                        continue;
+                    }
                     for lane in set_bits(mask) {
                         visit(first + lane, distances[lane as usize]);
                     }

@@ -26,7 +26,9 @@ pub(super) struct VerifiedLevel(SimdLevel);
 impl VerifiedLevel {
     /// The level, or the best one where the processor lacks it.
     pub(super) fn new(level: SimdLevel) -> Self {
-        Self(if level.is_supported() { level } else { SimdLevel::detect() })
+        let level = if level.is_supported() { level } else { SimdLevel::detect() };
+        // All processors with AVX2 have the instructions for bits, but nothing says so.
+        Self(if level == SimdLevel::Avx2 && !has_bit_instructions() { SimdLevel::Scalar } else { level })
     }
 
     /// Runs a query with the instructions of this level.
@@ -40,6 +42,16 @@ impl VerifiedLevel {
             _ => query.run(Plain),
         }
     }
+}
+
+/// Whether the processor searches and counts bits by instructions of their own.
+fn has_bit_instructions() -> bool {
+    #[cfg(target_arch = "x86_64")]
+    return is_x86_feature_detected!("bmi1")
+        && is_x86_feature_detected!("bmi2")
+        && is_x86_feature_detected!("popcnt");
+    #[cfg(not(target_arch = "x86_64"))]
+    return false;
 }
 
 /// Work to be done with some kind of lanes. `run` must be inlined, so that it is compiled for the level.
@@ -120,6 +132,19 @@ impl Lanes for Plain {
             end += (mask >> lane & 1) as usize;
         }
     }
+}
+
+/// Begins to load values into the cache.
+#[inline(always)]
+pub(super) fn prefetch<T>(values: &[T]) {
+    #[cfg(target_arch = "x86_64")]
+    for line in 0..size_of_val(values).div_ceil(64) {
+        use std::arch::x86_64::{_MM_HINT_T0, _mm_prefetch};
+        // SAFETY: a prefetch changes nothing but the cache, whatever the address.
+        unsafe { _mm_prefetch::<_MM_HINT_T0>(values.as_ptr().cast::<i8>().wrapping_add(64 * line)) };
+    }
+    #[cfg(not(target_arch = "x86_64"))]
+    let _ = values;
 }
 
 #[inline(always)]

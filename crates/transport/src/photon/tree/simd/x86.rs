@@ -5,12 +5,12 @@ use crate::photon::tree::layout::{FAN, Node, PACKET, Packet};
 use crate::photon::tree::region::Probe;
 use std::arch::x86_64::*;
 
-/// Proof that the processor has AVX2.
+/// Proof that the processor has AVX2, BMI and POPCNT.
 #[derive(Clone, Copy)]
 pub(super) struct Avx2(());
 
-/// Runs a query compiled for AVX2.
-#[target_feature(enable = "avx2")]
+/// Runs a query compiled for AVX2 and the bit instructions that come with it.
+#[target_feature(enable = "avx2,bmi1,bmi2,popcnt")]
 pub(super) fn run_avx2<Q: Query>(query: Q) -> Q::Output {
     query.run(Avx2(()))
 }
