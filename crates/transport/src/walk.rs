@@ -5,7 +5,7 @@
 
 use crate::stats::Stats;
 use hyaline_geometry::SurfaceHit;
-use hyaline_math::{Ray, offset_origin};
+use hyaline_math::{Ray, Vec3, offset_origin};
 use hyaline_scattering::{MediumSet, ObjectId, SurfaceBsdf};
 use hyaline_spectrum::Spectrum;
 use hyaline_world::{Encounter, World};
@@ -64,6 +64,12 @@ impl Vertex {
     pub fn passes_straight(&self, transmits: bool) -> bool {
         // A lamp stops shadow rays, whatever its finish.
         self.straight_shadows && transmits && self.light.is_none()
+    }
+
+    /// The ray that leaves in direction `wi`, unit.
+    pub fn leave(&self, wi: Vec3, time: f32) -> Ray {
+        let origin = offset_origin(self.hit.p, self.hit.p_error, self.hit.ng, wi);
+        Ray { time, ..Ray::new(origin, wi) }
     }
 
     /// The same place with another finish.

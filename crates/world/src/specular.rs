@@ -1,29 +1,34 @@
 //! Which items throw caustics: the one rule for what photons are aimed at.
 
 use crate::World;
-use crate::material::{ColorInput, Finish, Material, ScalarInput};
+use crate::material::{ColorInput, Composition, Finish, ScalarInput};
 use hyaline_geometry::ItemGeometry;
 
 /// Roughness up to which a finish counts as nearly polished.
 pub const NEARLY_POLISHED: f32 = 0.5;
 
-impl Material {
+impl Finish {
     /// Whether the finish may send light on in a narrow lobe, so that caustics come of it.
     ///
     /// In doubt it does: what varies with a texture counts, and so does every finish that is not known to scatter
     /// widely. Light that photons are not aimed at would be missing from the caustics.
     pub fn may_throw_caustics(&self) -> bool {
-        match &self.finish {
+        let is_narrow = |roughness: &ScalarInput| match *roughness {
+            ScalarInput::Constant(roughness) => roughness <= NEARLY_POLISHED,
+            ScalarInput::Texture(_) => true,
+        };
+        match self {
             Finish::Matte { .. } | Finish::Black | Finish::PassThrough => false,
             Finish::Phong { diffuse, .. } => match diffuse {
                 ColorInput::Constant(diffuse) => diffuse.is_zero(),
                 ColorInput::Texture(_) => true,
             },
-            Finish::Conductor { roughness, .. } | Finish::Dielectric { roughness, .. } => match roughness {
-                ScalarInput::Constant(roughness) => *roughness <= NEARLY_POLISHED,
-                ScalarInput::Texture(_) => true,
-            },
-            _ => true,
+            Finish::Conductor { roughness, .. } | Finish::Dielectric { roughness, .. } => is_narrow(roughness),
+            Finish::Plastic { roughness, .. } => !matches!(roughness, ScalarInput::Constant(r) if *r > 0.0),
+            Finish::PerfectSpecular { .. }
+            | Finish::GlossySpecular { .. }
+            | Finish::SimpleTransparent { .. }
+            | Finish::ThinDielectric { .. } => true,
         }
     }
 }
@@ -56,6 +61,22 @@ impl World {
         let slot = if info.slot_materials.is_empty() { None } else { info.slot_materials.get(own()) };
         let material = slot.copied().unwrap_or(info.material);
         // Where boundaries coincide, the finish of either object may be the one in force; both are items.
-        self.materials[material as usize].may_throw_caustics()
+        self.may_throw_caustics(material)
+    }
+
+    /// Whether any finish of either side of a material may throw caustics.
+    fn may_throw_caustics(&self, material: u32) -> bool {
+        let back = self.materials[material as usize].back;
+        self.has_narrow_part(material) || back.is_some_and(|back| self.has_narrow_part(back))
+    }
+
+    /// Whether any finish that a material is made up of may throw caustics.
+    fn has_narrow_part(&self, material: u32) -> bool {
+        match &self.materials[material as usize].composition {
+            Composition::Single(finish) => finish.may_throw_caustics(),
+            Composition::Blend(first, second, _) => {
+                self.has_narrow_part(*first) || self.has_narrow_part(*second)
+            }
+        }
     }
 }

@@ -2,11 +2,14 @@
 
 mod path;
 mod per_pixel;
+mod photon_map;
 mod whitted;
 
 pub use path::{PathIntegrator, radiance};
+pub use photon_map::PhotonMapIntegrator;
 pub use whitted::WhittedIntegrator;
 
+use crate::photon::maps::PhotonStatistics;
 use crate::stats::Stats;
 use hyaline_film::{PixelSample, Rect};
 use hyaline_world::World;
@@ -79,6 +82,11 @@ pub trait Integrator: Send + Sync {
 pub trait Prepared: Send + Sync {
     /// Does the work that all pixels of pass number `pass` share.
     fn begin_pass<'a>(&'a self, pass: u32, stats: &mut Stats) -> Box<dyn Pass + 'a>;
+
+    /// What the photon stage did; `None` for integrators without one.
+    fn photon_statistics(&self) -> Option<PhotonStatistics> {
+        None
+    }
 }
 
 /// One pass: one sample per pixel.
@@ -90,12 +98,13 @@ pub trait Pass: Send + Sync {
 }
 
 /// Names of the integrators there are, the default first.
-pub const NAMES: [&str; 2] = ["path", "whitted"];
+pub const NAMES: [&str; 3] = ["path", "photon-map", "whitted"];
 
 /// The integrator of that name.
 pub fn by_name(name: &str) -> Option<Box<dyn Integrator>> {
     match name {
         "path" => Some(Box::new(PathIntegrator)),
+        "photon-map" => Some(Box::new(PhotonMapIntegrator)),
         "whitted" => Some(Box::new(WhittedIntegrator)),
         _ => None,
     }
