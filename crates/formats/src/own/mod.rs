@@ -15,6 +15,7 @@ mod material;
 mod medium;
 mod object;
 mod overrides;
+mod photon_map;
 mod references;
 mod scene;
 mod settings;
