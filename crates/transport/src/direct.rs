@@ -75,6 +75,27 @@ impl DirectLight<'_> {
     }
 }
 
+/// Radiance of the surface hit towards the start of `ray`, weighted against light sampling where the path came from a
+/// vertex that sampled lights: `sampled` is that vertex and the density of the direction.
+pub fn surface_radiance(
+    world: &World,
+    vertex: &Vertex,
+    ray: &Ray,
+    sampled: Option<(Vec3, f32)>,
+) -> Spectrum {
+    let Some(index) = vertex.light else { return Spectrum::ZERO };
+    let light = world.lights.get(index as usize);
+    let radiance = light.radiance_from(&vertex.hit, -ray.direction);
+    match sampled {
+        Some((p, pdf)) if !radiance.is_zero() => {
+            let pdf_light = world.lights.direct().probability(index as usize)
+                * light.pdf_direct(p, ray.direction, Some(&vertex.hit));
+            radiance * mis::power(pdf, pdf_light)
+        }
+        _ => radiance,
+    }
+}
+
 /// Radiance of the surroundings against `ray`, weighted against light sampling where the path came from a vertex
 /// that sampled lights: `sampled` is that vertex and the density of the direction.
 pub fn sky_radiance(world: &World, ray: &Ray, sampled: Option<(Vec3, f32)>, visible: u8) -> Spectrum {

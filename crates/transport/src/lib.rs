@@ -4,6 +4,7 @@ pub mod direct;
 pub mod first_hit;
 pub mod integrator;
 pub mod photon;
+mod roulette;
 pub mod shadow;
 pub mod stats;
 pub mod walk;

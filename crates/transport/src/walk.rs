@@ -5,7 +5,7 @@
 
 use crate::stats::Stats;
 use hyaline_geometry::SurfaceHit;
-use hyaline_math::{Ray, offset_origin};
+use hyaline_math::{Ray, Vec3, offset_origin};
 use hyaline_scattering::{MediumSet, ObjectId, SurfaceBsdf};
 use hyaline_spectrum::Spectrum;
 use hyaline_world::{Encounter, World};
@@ -48,6 +48,12 @@ impl Vertex {
     /// Takes the path across the surface: `set` becomes what holds on the other side.
     pub fn commit(&self, world: &World, set: &mut MediumSet) {
         self.encounter.commit(world, set);
+    }
+
+    /// The ray that leaves in direction `wi`, unit.
+    pub fn leave(&self, wi: Vec3, time: f32) -> Ray {
+        let origin = offset_origin(self.hit.p, self.hit.p_error, self.hit.ng, wi);
+        Ray { time, ..Ray::new(origin, wi) }
     }
 
     /// The same place with another finish.

@@ -10,29 +10,16 @@ use super::per_pixel::PerPixel;
 use super::{Integrator, Prepared, RenderSettings, View};
 use crate::direct::{self, DirectLight};
 use crate::first_hit;
+use crate::roulette::{PATIENCE_WITH_SHADING_NORMALS, eye_survival};
 use crate::stats::Stats;
-use crate::walk::{self, Event, Vertex};
+use crate::walk::{self, Event};
 use hyaline_film::PixelSample;
-use hyaline_math::{Ray, Vec3, offset_origin};
-use hyaline_sampling::{Sampler, mis};
+use hyaline_math::{Ray, Vec3};
+use hyaline_sampling::Sampler;
 use hyaline_scattering::{MediumSet, Transport};
 use hyaline_spectrum::Spectrum;
 use hyaline_world::{World, mask};
 use std::sync::atomic::AtomicBool;
-
-/// Bounces after which roulette may end a path; shorter ones carry most of the picture.
-const FIRST_ROULETTE_BOUNCE: u32 = 3;
-
-/// Bounces after which roulette ends even paths that lose nothing: in a closed white room they would go on for ever.
-const PATIENCE_WITH_BOUNCES: u32 = 128;
-
-/// Singular events in a row after which a path turns to geometric normals: shading normals are not reversible, and
-/// light that they let into a mesh may be trapped by total reflection for good.
-const PATIENCE_WITH_SHADING_NORMALS: u32 = 32;
-
-/// Singular crossings in a row after which roulette ends even lossless paths now and then: light trapped by
-/// total reflection for good would never end otherwise.
-const PATIENCE_WITH_CROSSINGS: u32 = 4096;
 
 /// Unidirectional path tracing with light sampling.
 pub struct PathIntegrator;
@@ -96,7 +83,7 @@ pub fn radiance(
         if let Some(sample) = first.take() {
             first_hit::record(sample, &vertex, &ray);
         }
-        result += throughput * emitted(world, &vertex, &ray, &last);
+        result += throughput * direct::surface_radiance(world, &vertex, &ray, last.sampled);
 
         let wo = -ray.direction;
         if !vertex.bsdf.is_delta() && settings.max_depth.is_none_or(|limit| bounces < limit) {
@@ -122,50 +109,15 @@ pub fn radiance(
             break;
         }
         let roulette = sampler.next_1d();
-        match survival(throughput.max_lane(world.lanes) / index_scale, bounces, crossings) {
+        match eye_survival(throughput.max_lane(world.lanes) / index_scale, bounces, crossings) {
             q if roulette >= q => break,
             q => throughput *= 1.0 / q,
         }
-        ray = leave(&vertex, scattered.wi, ray.time);
+        ray = vertex.leave(scattered.wi, ray.time);
         if scattered.transmits {
             vertex.commit(world, &mut set);
         }
         visible = mask::PATH;
     }
     result
-}
-
-/// The ray that leaves a vertex.
-fn leave(vertex: &Vertex, wi: Vec3, time: f32) -> Ray {
-    let origin = offset_origin(vertex.hit.p, vertex.hit.p_error, vertex.hit.ng, wi);
-    Ray { time, ..Ray::new(origin, wi) }
-}
-
-/// Light of the surface hit, towards the start of `ray`.
-fn emitted(world: &World, vertex: &Vertex, ray: &Ray, last: &LastScatter) -> Spectrum {
-    let Some(index) = vertex.light else { return Spectrum::ZERO };
-    let light = world.lights.get(index as usize);
-    let radiance = light.radiance_from(&vertex.hit, -ray.direction);
-    if radiance.is_zero() {
-        return radiance;
-    }
-    match last.sampled {
-        None => radiance,
-        Some((p, pdf)) => {
-            let pdf_light = world.lights.direct().probability(index as usize)
-                * light.pdf_direct(p, ray.direction, Some(&vertex.hit));
-            radiance * mis::power(pdf, pdf_light)
-        }
-    }
-}
-
-/// Probability that a path goes on, given its largest lane without the n² factors.
-fn survival(weight: f32, bounces: u32, crossings: u32) -> f32 {
-    if crossings > PATIENCE_WITH_CROSSINGS {
-        return weight.clamp(0.05, 0.95);
-    }
-    if bounces > PATIENCE_WITH_BOUNCES {
-        return weight.clamp(0.0, 0.95);
-    }
-    if bounces < FIRST_ROULETTE_BOUNCE && weight > 1e-3 { 1.0 } else { weight.clamp(0.0, 1.0) }
 }

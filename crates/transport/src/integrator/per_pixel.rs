@@ -1,4 +1,4 @@
-//! What integrators share whose passes share nothing: each sample of a pixel is an estimate along one camera ray.
+//! What integrators share whose samples share nothing: each sample of a pixel is an estimate along one camera ray.
 
 use super::{Pass, Prepared, RenderSettings, View};
 use crate::stats::Stats;
@@ -43,15 +43,39 @@ struct PixelPass<'a> {
 impl Pass for PixelPass<'_> {
     fn render_tile(&self, tile: Rect, samples: &mut [PixelSample], stats: &mut Stats) {
         let PerPixel { world, view, settings, estimate } = self.prepared;
+        let camera = CameraRays { world, view, settings, pass: self.pass };
+        camera.render_tile(tile, samples, |ray, start, sampler, sample| {
+            estimate(world, settings, ray, start, sampler, stats, Some(sample))
+        });
+    }
+}
+
+/// The camera rays of one pass, one a pixel.
+pub(super) struct CameraRays<'a> {
+    pub(super) world: &'a World,
+    pub(super) view: &'a View,
+    pub(super) settings: &'a RenderSettings,
+    pub(super) pass: u32,
+}
+
+impl CameraRays<'_> {
+    /// Fills the samples of a tile: `estimate` gives the radiance that arrives along a ray, which starts inside the
+    /// given set, and notes what the first surface looks like.
+    pub(super) fn render_tile(
+        &self,
+        tile: Rect,
+        samples: &mut [PixelSample],
+        mut estimate: impl FnMut(Ray, MediumSet, &mut Sampler, &mut PixelSample) -> Spectrum,
+    ) {
+        let Self { world, view, settings, pass } = *self;
         for ((x, y), sample) in tile.pixels().zip(samples) {
-            let mut sampler = Sampler::new(settings.sampler, settings.seed, (x, y), self.pass);
+            let mut sampler = Sampler::new(settings.sampler, settings.seed, (x, y), pass);
             let film = Vec2::new(x as f32 + 0.5, y as f32 + 0.5) + view.filter.sample(sampler.next_2d());
             let lens = sampler.next_2d();
             *sample = PixelSample::default();
             if let Some(ray) = world.cameras[view.camera].ray(film, lens) {
                 let start = world.camera_media[view.camera].clone();
-                let radiance = estimate(world, settings, ray, start, &mut sampler, stats, Some(sample));
-                sample.beauty = radiance.to_rgb();
+                sample.beauty = estimate(ray, start, &mut sampler, sample).to_rgb();
             }
         }
     }

@@ -15,7 +15,7 @@ use crate::first_hit;
 use crate::stats::Stats;
 use crate::walk::{self, Event, Vertex};
 use hyaline_film::PixelSample;
-use hyaline_math::{Ray, Vec3, offset_origin};
+use hyaline_math::{Ray, Vec3};
 use hyaline_sampling::Sampler;
 use hyaline_scattering::{MediumSet, Transport};
 use hyaline_spectrum::Spectrum;
@@ -199,9 +199,7 @@ impl Tracer<'_> {
         if transmits {
             vertex.commit(self.world, &mut set);
         }
-        let origin = offset_origin(vertex.hit.p, vertex.hit.p_error, vertex.hit.ng, wi);
-        let ray = Ray { time, ..Ray::new(origin, wi) };
-        factor * self.trace(ray, set, Branch { weight, depth, visible: mask::PATH }, sampler)
+        factor * self.trace(vertex.leave(wi, time), set, Branch { weight, depth, visible: mask::PATH }, sampler)
     }
 
     /// Direct light of every lamp.
