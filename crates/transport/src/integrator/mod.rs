@@ -1,9 +1,11 @@
 //! What an integrator is: something that prepares, and then renders numbered passes that know nothing of each other.
 
+pub mod debug;
 mod path;
 mod per_pixel;
 mod whitted;
 
+pub use debug::DebugIntegrator;
 pub use path::{PathIntegrator, radiance};
 pub use whitted::WhittedIntegrator;
 
@@ -90,13 +92,14 @@ pub trait Pass: Send + Sync {
 }
 
 /// Names of the integrators there are, the default first.
-pub const NAMES: [&str; 2] = ["path", "whitted"];
+pub const NAMES: [&str; 3] = ["path", "whitted", "debug"];
 
 /// The integrator of that name.
 pub fn by_name(name: &str) -> Option<Box<dyn Integrator>> {
     match name {
         "path" => Some(Box::new(PathIntegrator)),
         "whitted" => Some(Box::new(WhittedIntegrator)),
+        "debug" => Some(Box::new(DebugIntegrator)),
         _ => None,
     }
 }
