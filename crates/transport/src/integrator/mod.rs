@@ -3,12 +3,15 @@
 pub mod debug;
 mod path;
 mod per_pixel;
+mod photon_map;
 mod whitted;
 
 pub use debug::DebugIntegrator;
 pub use path::{PathIntegrator, radiance};
+pub use photon_map::PhotonMapIntegrator;
 pub use whitted::WhittedIntegrator;
 
+use crate::photon::maps::PhotonStatistics;
 use crate::stats::Stats;
 use hyaline_film::{PixelSample, Rect};
 use hyaline_world::World;
@@ -81,6 +84,11 @@ pub trait Integrator: Send + Sync {
 pub trait Prepared: Send + Sync {
     /// Does the work that all pixels of pass number `pass` share.
     fn begin_pass<'a>(&'a self, pass: u32, stats: &mut Stats) -> Box<dyn Pass + 'a>;
+
+    /// What the photon stage did; `None` for integrators without one.
+    fn photon_statistics(&self) -> Option<PhotonStatistics> {
+        None
+    }
 }
 
 /// One pass: one sample per pixel.
@@ -92,12 +100,13 @@ pub trait Pass: Send + Sync {
 }
 
 /// Names of the integrators there are, the default first.
-pub const NAMES: [&str; 3] = ["path", "whitted", "debug"];
+pub const NAMES: [&str; 4] = ["path", "photon-map", "whitted", "debug"];
 
 /// The integrator of that name.
 pub fn by_name(name: &str) -> Option<Box<dyn Integrator>> {
     match name {
         "path" => Some(Box::new(PathIntegrator)),
+        "photon-map" => Some(Box::new(PhotonMapIntegrator)),
         "whitted" => Some(Box::new(WhittedIntegrator)),
         "debug" => Some(Box::new(DebugIntegrator)),
         _ => None,

@@ -1,1 +1,18 @@
 //! Photons: how they start, travel, are kept, and are found again.
+
+pub mod emission;
+pub mod gather;
+pub mod kernel;
+pub mod maps;
+pub mod record;
+pub mod specular;
+pub mod trace;
+pub mod tree;
+
+pub use emission::{PhotonEmitter, PhotonStart};
+pub use gather::{Estimate, Gathered, PhotonMap};
+pub use kernel::Kernel;
+pub use maps::{MapStatistics, PhotonMaps, PhotonStatistics};
+pub use record::{PackedPhoton, Photon, PhotonKind};
+pub use trace::{MapKind, PhotonTracer};
+pub use tree::{Disc, Nearest, PointTree, Region};

@@ -21,6 +21,14 @@ pub(super) fn of_medium(index: u32) -> Spectrum {
     if index == 0 { Spectrum::splat(0.1) } else { of_index(index) }
 }
 
+/// Color of a photon after so many bounces: white for none, then from red over green to violet for 8 and more.
+pub(super) fn of_bounces(bounces: u32) -> Spectrum {
+    match bounces {
+        0 => Spectrum::ONE,
+        _ => from_hue(0.1 * bounces.min(8) as f32 - 0.1, 0.9, 1.0),
+    }
+}
+
 /// The hexagonal color of a hue on the circle 0…1 (red, green at 1/3, blue at 2/3).
 ///
 /// Source: Smith, Color gamut transform pairs, SIGGRAPH 1978.

@@ -5,12 +5,15 @@
 //!
 //! - `surface_view`: the first surface of a camera ray, by itself;
 //! - `polished`: what lies behind polished surfaces;
-//! - `photon_view`: the photons, as points or as the estimates that are made of them.
+//! - `photon_view`: the photons, as points (`point_cloud`) or as the estimates that are made of them.
 
 mod code_color;
+mod photon_view;
+mod point_cloud;
 mod polished;
 mod surface_view;
 
+use self::photon_view::PhotonView;
 use super::per_pixel::PerPixel;
 use super::{Integrator, Prepared, RenderSettings, View};
 use crate::stats::Stats;
@@ -31,9 +34,12 @@ impl Integrator for DebugIntegrator {
         world: &'w World,
         view: &View,
         settings: &RenderSettings,
-        _cancel: &AtomicBool,
-        _stats: &mut Stats,
+        cancel: &AtomicBool,
+        stats: &mut Stats,
     ) -> Box<dyn Prepared + 'w> {
+        if shows_photons(settings.debug) {
+            return Box::new(PhotonView::new(world, view, settings, cancel, stats));
+        }
         Box::new(PerPixel { world, view: *view, settings: *settings, estimate: surface_view::value })
     }
 }

@@ -1,14 +1,17 @@
 //! What is seen through polished surfaces: the first surface on a ray's way that is not polished.
 //!
 //! The ray goes on through a surface where light can get through it, and is mirrored elsewhere: one way, always the
-//! same, whatever part of the light takes it.
+//! same, whatever part of the light takes it. At nearly polished surfaces, which photons pass like polished ones, its
+//! direction is drawn.
 
 use crate::first_hit;
+use crate::photon::specular::is_specular;
 use crate::stats::Stats;
 use crate::walk::{self, Event, Vertex};
 use hyaline_film::PixelSample;
 use hyaline_math::{Ray, Vec3};
-use hyaline_scattering::{Branch, MediumSet};
+use hyaline_sampling::Sampler;
+use hyaline_scattering::{MediumSet, Transport};
 use hyaline_world::{World, mask};
 
 /// Polished surfaces after which a ray is taken for trapped.
@@ -29,6 +32,7 @@ pub(super) fn look(
     world: &World,
     mut ray: Ray,
     mut set: MediumSet,
+    sampler: &mut Sampler,
     stats: &mut Stats,
     mut first: Option<&mut PixelSample>,
 ) -> Sight {
@@ -41,11 +45,14 @@ pub(super) fn look(
             first_hit::record(sample, &vertex, &ray);
         }
         let wo = -ray.direction;
-        let Some(branch) = way_on(&vertex, wo) else {
+        if !is_specular(&vertex.bsdf) {
             return Sight { end: Some((vertex, wo)), surfaces: surfaces + 1 };
+        }
+        let Some((wi, transmits)) = way_on(&vertex, wo, sampler) else {
+            return Sight { end: None, surfaces: surfaces + 1 };
         };
-        ray = vertex.leave(branch.wi, ray.time);
-        if branch.transmits {
+        ray = vertex.leave(wi, ray.time);
+        if transmits {
             vertex.commit(world, &mut set);
         }
         visible = mask::PATH;
@@ -53,8 +60,15 @@ pub(super) fn look(
     Sight { end: None, surfaces: MOST_CROSSINGS }
 }
 
-/// Through a polished surface, else back from it; `None` at all others.
-fn way_on(vertex: &Vertex, wo: Vec3) -> Option<Branch> {
+/// Direction in which the ray goes on, and whether it crosses the surface; `None` where it is swallowed.
+fn way_on(vertex: &Vertex, wo: Vec3, sampler: &mut Sampler) -> Option<(Vec3, bool)> {
     let branches = vertex.bsdf.branches(wo);
-    branches.iter().flatten().find(|branch| branch.transmits).or(branches.iter().flatten().next()).copied()
+    let mut all = branches.iter().flatten();
+    let polished = all.clone().find(|branch| branch.transmits).or(all.next());
+    if vertex.bsdf.is_delta() || polished.is_some() {
+        return polished.map(|branch| (branch.wi, branch.transmits));
+    }
+    let (u_lobe, u) = (sampler.next_1d(), sampler.next_2d());
+    let sample = vertex.bsdf.sample(wo, u_lobe, u, Transport::Radiance)?;
+    Some((sample.wi, sample.transmits))
 }

@@ -22,12 +22,12 @@ pub(super) fn value(
     settings: &RenderSettings,
     ray: Ray,
     mut set: MediumSet,
-    _sampler: &mut Sampler,
+    sampler: &mut Sampler,
     stats: &mut Stats,
     first: Option<&mut PixelSample>,
 ) -> Spectrum {
     if settings.debug == DebugView::Crossings {
-        return Spectrum::splat(polished::look(world, ray, set, stats, first).surfaces as f32);
+        return Spectrum::splat(polished::look(world, ray, set, sampler, stats, first).surfaces as f32);
     }
     match walk::advance(world, &ray, mask::CAMERA, &mut set, stats) {
         Event::Sky { .. } if settings.debug == DebugView::Medium => code_color::of_medium(set.active().0),

@@ -1,0 +1,172 @@
+//! A path of the eye, from the camera or from a place that gathers.
+
+use super::eye::Role;
+use crate::direct;
+use crate::photon::specular::is_specular_event;
+use crate::roulette::{PATIENCE_WITH_SHADING_NORMALS, eye_survival};
+use crate::stats::Stats;
+use crate::walk::{self, Event, Vertex};
+use hyaline_math::{Ray, Vec3};
+use hyaline_sampling::Sampler;
+use hyaline_scattering::bsdf::BsdfSample;
+use hyaline_scattering::{MediumSet, Transport};
+use hyaline_spectrum::Spectrum;
+use hyaline_world::{World, mask};
+
+/// Where a strand comes from, over specular surfaces or straight.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Origin {
+    /// The camera: all light met is seen.
+    Camera,
+    /// A surface that gathers, and has counted its direct light and its caustics already.
+    Gather {
+        /// Length of the way since, scene units.
+        distance: f32,
+        /// Whether it went over specular surfaces.
+        is_specular: bool,
+    },
+}
+
+/// A path of the eye at work.
+#[derive(Clone)]
+pub(super) struct Strand {
+    pub(super) ray: Ray,
+    pub(super) set: MediumSet,
+    pub(super) throughput: Spectrum,
+    pub(super) origin: Origin,
+    /// Scatterings so far, singular ones not counted.
+    pub(super) bounces: u32,
+    /// Whether it is one of the gather rays that a camera path was split into.
+    pub(super) is_split: bool,
+    /// What the throughput holds that says nothing of how much the strand counts: n² factors, the share of a split.
+    scale: f32,
+    /// The last vertex at which light was sampled, and the density of the direction taken there; `None` where light
+    /// sampling could not have made the strand.
+    sampled: Option<(Vec3, f32)>,
+    visible: u8,
+    crossings: u32,
+}
+
+impl Strand {
+    /// The beginning of a camera path.
+    pub(super) fn from_camera(ray: Ray, set: MediumSet) -> Self {
+        Self {
+            ray,
+            set,
+            throughput: Spectrum::ONE,
+            origin: Origin::Camera,
+            bounces: 0,
+            is_split: false,
+            scale: 1.0,
+            sampled: None,
+            visible: mask::CAMERA,
+            crossings: 0,
+        }
+    }
+
+    /// One of `count` strands that share the work of this one.
+    pub(super) fn split(&self, count: u32) -> Self {
+        let share = 1.0 / count as f32;
+        Self {
+            throughput: self.throughput * share,
+            scale: self.scale * share,
+            is_split: true,
+            ..self.clone()
+        }
+    }
+
+    /// Walks to the next surface; the light of the surroundings or of the surface is added to `light`.
+    pub(super) fn walk(&mut self, world: &World, light: &mut Spectrum, stats: &mut Stats) -> Option<Vertex> {
+        match walk::advance(world, &self.ray, self.visible, &mut self.set, stats) {
+            Event::Sky { transmittance } => {
+                if self.sees_lights() {
+                    let sky = direct::sky_radiance(world, &self.ray, self.sampled, self.visible);
+                    *light += self.throughput * transmittance * sky;
+                }
+                None
+            }
+            Event::Surface(mut vertex) => {
+                if self.crossings > PATIENCE_WITH_SHADING_NORMALS {
+                    vertex.bsdf = vertex.bsdf.without_shading_normal();
+                }
+                self.throughput *= vertex.transmittance;
+                if let Origin::Gather { distance, .. } = &mut self.origin {
+                    *distance += vertex.distance;
+                }
+                if self.sees_lights() {
+                    let radiance = direct::surface_radiance(world, &vertex, &self.ray, self.sampled);
+                    *light += self.throughput * radiance;
+                }
+                Some(vertex)
+            }
+        }
+    }
+
+    /// Whether a light that the strand meets counts. Light over specular surfaces onto one that gathers is a caustic:
+    /// the caustic map has it.
+    fn sees_lights(&self) -> bool {
+        match self.origin {
+            Origin::Camera => true,
+            Origin::Gather { is_specular, .. } => !is_specular,
+        }
+    }
+
+    /// Whether it comes from a surface that gathers and is nearer than `radius`.
+    pub(super) fn is_shorter_than(&self, radius: f32) -> bool {
+        matches!(self.origin, Origin::Gather { distance, .. } if distance < radius)
+    }
+
+    /// Goes on in a direction drawn at `vertex`, where the surface has looked its light up only in a polished one.
+    /// Returns whether it goes on.
+    pub(super) fn scatter(
+        &mut self,
+        world: &World,
+        vertex: &Vertex,
+        role: Role,
+        max_bounces: Option<u32>,
+        sampler: &mut Sampler,
+    ) -> bool {
+        let (u_lobe, u) = (sampler.next_1d(), sampler.next_2d());
+        let wo = -self.ray.direction;
+        let Some(scattered) = vertex.bsdf.sample(wo, u_lobe, u, Transport::Radiance) else { return false };
+        let is_specular = is_specular_event(&vertex.bsdf, scattered.is_delta);
+        if role == Role::LookUp && !is_specular {
+            return false;
+        }
+        self.note(vertex, &scattered, is_specular);
+        if max_bounces.is_some_and(|limit| self.bounces > limit) || !self.survives(world.lanes, sampler) {
+            return false;
+        }
+        self.ray = vertex.leave(scattered.wi, self.ray.time);
+        if scattered.transmits {
+            vertex.commit(world, &mut self.set);
+        }
+        true
+    }
+
+    /// Notes what a direction drawn at `vertex` makes of the strand.
+    fn note(&mut self, vertex: &Vertex, scattered: &BsdfSample, goes_specular: bool) {
+        self.throughput *= scattered.weight;
+        self.scale *= scattered.eta_scale;
+        self.visible = mask::PATH;
+        if scattered.is_delta {
+            self.crossings += 1;
+            self.sampled = None;
+        } else {
+            self.crossings = 0;
+            self.bounces += 1;
+            self.sampled = Some((vertex.hit.p, scattered.pdf));
+        }
+        match &mut self.origin {
+            Origin::Gather { is_specular, .. } if goes_specular => *is_specular = true,
+            Origin::Camera if goes_specular => {}
+            origin => *origin = Origin::Gather { distance: 0.0, is_specular: false },
+        }
+    }
+
+    fn survives(&mut self, lanes: usize, sampler: &mut Sampler) -> bool {
+        let q = eye_survival(self.throughput.max_lane(lanes) / self.scale, self.bounces, self.crossings);
+        self.throughput *= 1.0 / q;
+        sampler.next_1d() < q
+    }
+}

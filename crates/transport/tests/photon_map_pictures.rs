@@ -1,0 +1,205 @@
+//! `photon-map` against `path`, and against itself with other settings: no light is lost, none is counted twice.
+
+mod photon_kit;
+mod pictures;
+mod scene_kit;
+
+use hyaline_math::DVec3;
+use hyaline_scene::*;
+use hyaline_testkit::{Moments, welch_t};
+use hyaline_transport::RenderSettings;
+use hyaline_world::World;
+use pictures::{Shot, luminance};
+use scene_kit::*;
+
+/// Pictures made, each with maps of its own.
+const SEEDS: u64 = 12;
+
+/// Chance of calling pictures different that are not.
+const LEVEL: f64 = 1e-3;
+
+/// Mean of a picture over `passes` passes, for `SEEDS` seeds.
+fn means(world: &World, integrator: &str, photon_map: PhotonMapSettings, passes: u32) -> Moments {
+    let mut moments = Moments::new();
+    for seed in 0..SEEDS {
+        let settings = RenderSettings { seed, photon_map, ..settings() };
+        let shot = Shot { world, integrator, settings, size: (16, 16) };
+        let (mut sum, mut count) = (0.0, 0);
+        shot.render(shot.full_frame(), 0..passes, |_, samples| {
+            sum += samples.iter().map(luminance).sum::<f64>();
+            count += samples.len();
+        });
+        moments.push(sum / f64::from(count as u32));
+    }
+    moments
+}
+
+fn few_photons() -> PhotonMapSettings {
+    let nearest = NearestPhotons { caustic: 30, global: 50, volume: 30 };
+    PhotonMapSettings {
+        caustic_photons: 30_000,
+        global_photons: 30_000,
+        nearest,
+        ..PhotonMapSettings::default()
+    }
+}
+
+/// Fails unless the means agree, and are known to `power`.
+fn assert_same(a: &Moments, b: &Moments, power: f64, what: &str) {
+    let error = (a.variance_of_mean() + b.variance_of_mean()).sqrt();
+    println!(
+        "{what}: {} and {} ± {error}, {:+.2} %",
+        a.mean(),
+        b.mean(),
+        100.0 * (a.mean() / b.mean() - 1.0)
+    );
+    assert!(error < power * b.mean(), "{what}: an error of {error} in {} shows nothing", b.mean());
+    let chance =
+        welch_t(a.mean(), a.variance_of_mean(), a.count(), b.mean(), b.variance_of_mean(), b.count());
+    assert!(chance > LEVEL, "{what}: {} and {} ± {error}, p = {chance}", a.mean(), b.mean());
+}
+
+fn square_lamp(center: DVec3, half: f64) -> ShapeDescription {
+    // Its normal is down.
+    rectangle(center, DVec3::X * half, DVec3::Z * half)
+}
+
+/// A matte plane and a camera that looks at it, a lamp on the other side of a water surface or on the same.
+fn pool(camera_height: f64, floor_height: f64, lamp_height: f64) -> World {
+    let mut kit = SceneKit::new();
+    kit.medium("water", 1.333).matte("matte", 0.6);
+    kit.interface("surface", floor(0.0, 20.0), None, Some("water"));
+    let up = if floor_height < lamp_height { 1.0 } else { -1.0 };
+    let plane = rectangle(DVec3::Y * floor_height, DVec3::Z * 20.0, DVec3::X * (20.0 * up));
+    kit.surface("plane", plane, "matte");
+    let lamp = rectangle(DVec3::Y * lamp_height, DVec3::X * 1.5, DVec3::Z * (1.5 * up));
+    kit.lamp("lamp", lamp, 5.0);
+    kit.camera(DVec3::new(0.0, camera_height, 1.5), DVec3::Y * floor_height);
+    kit.world()
+}
+
+#[test]
+fn light_through_a_water_surface_is_that_of_path_tracing() {
+    let cases = [
+        ("camera and plane under water, lamp in air", pool(-0.2, -1.0, 0.8)),
+        ("camera and plane in air, lamp under water", pool(0.2, 1.0, -0.8)),
+        ("camera in air, plane under water, lamp in air", pool(0.4, -0.6, 0.9)),
+    ];
+    for (what, world) in cases {
+        let maps = means(&world, "photon-map", few_photons(), 4);
+        let paths = means(&world, "path", few_photons(), 400);
+        assert_same(&maps, &paths, 0.01, what);
+    }
+}
+
+/// A matte ball with things in it, all of finite curvature, so that no look-up reaches over an edge.
+fn hollow(lamp: impl FnOnce(&mut SceneKit)) -> SceneKit {
+    let mut kit = SceneKit::new();
+    kit.matte("matte", 0.7).surface("wall", sphere(DVec3::ZERO, 2.0), "matte");
+    kit.medium("glass", 1.5).solid("lens", sphere(DVec3::new(0.5, -0.5, -0.8), 0.6), "glass");
+    lamp(&mut kit);
+    kit.camera(DVec3::new(0.0, 0.1, 1.2), DVec3::new(0.1, -0.2, -1.0));
+    kit
+}
+
+fn lamp_ball(kit: &mut SceneKit) {
+    kit.lamp("lamp", sphere(DVec3::new(-0.6, 0.9, 0.3), 0.3), 4.0);
+}
+
+fn point_light(kit: &mut SceneKit) {
+    kit.light(LightKind::Point { position: DVec3::new(-0.6, 0.9, 0.3), intensity: [2.0; 3] });
+}
+
+#[test]
+fn every_way_to_look_light_up_gives_the_picture_of_path_tracing() {
+    let world = hollow(lamp_ball).world();
+    let paths = means(&world, "path", few_photons(), 150);
+    for (what, photon_map) in ways() {
+        assert_same(&means(&world, "photon-map", photon_map, 6), &paths, 0.01, what);
+    }
+}
+
+#[test]
+fn light_of_a_point_through_glass_comes_from_the_caustic_map_in_every_way() {
+    let world = hollow(point_light).world();
+    let [(_, plain), others @ ..] = ways();
+    let first = means(&world, "photon-map", plain, 8);
+    for (what, photon_map) in others {
+        assert_same(&means(&world, "photon-map", photon_map, 8), &first, 0.01, what);
+    }
+    // All of it comes to rest at the wall, so that the wall's mean irradiance is known.
+    let paths = means(&world, "path", few_photons(), 20);
+    assert!(paths.mean() < 0.97 * first.mean(), "path finds {} of {}", paths.mean(), first.mean());
+}
+
+fn ways() -> [(&'static str, PhotonMapSettings); 5] {
+    let plain = few_photons();
+    [
+        ("as it is", plain),
+        ("without direct light in the map", PhotonMapSettings { exclude_direct: true, ..plain }),
+        ("without final gathering", PhotonMapSettings { final_gather: false, ..plain }),
+        ("with three gather rays", PhotonMapSettings { gather_rays: 3, ..plain }),
+        ("without projection maps", PhotonMapSettings { projection: ProjectionMaps::None, ..plain }),
+    ]
+}
+
+#[test]
+fn finishes_between_polished_and_matte_lose_no_light() {
+    for roughness in [0.1, 0.35, 0.6, 0.9] {
+        let mut kit = hollow(lamp_ball);
+        let white = || ColorSource::Constant([1.0; 3]);
+        let rough = MaterialKind::Dielectric {
+            roughness: ScalarSource::Constant(roughness),
+            tint: (white(), white()),
+        };
+        kit.material("rough", rough);
+        kit.object(
+            "frosted",
+            sphere(DVec3::new(-0.6, -0.5, -0.9), 0.5),
+            BoundaryDescription::Solid { medium: "glass".into() },
+            "rough",
+        );
+        let phong = MaterialKind::GlossySpecular {
+            reflectance: ColorSource::Constant([0.8; 3]),
+            exponent: ScalarSource::Constant(2.0 / (roughness * roughness)),
+        };
+        kit.material("glossy", phong).surface("ball", sphere(DVec3::new(0.2, 0.5, -1.0), 0.3), "glossy");
+        let world = kit.world();
+        let paths = means(&world, "path", few_photons(), 150);
+        let maps = means(&world, "photon-map", few_photons(), 8);
+        assert_same(&maps, &paths, 0.01, &format!("roughness {roughness}"));
+    }
+}
+
+#[test]
+fn a_sky_and_lamps_that_shine_through_each_other_are_counted_once() {
+    let mut kit = SceneKit::new();
+    kit.matte("matte", 0.6).surface("floor", floor(-0.7, 30.0), "matte").sky(0.7);
+    kit.medium("glass", 1.5).solid("lens", sphere(DVec3::new(0.1, 0.0, 0.0), 0.6), "glass");
+    kit.lamp("lamp", square_lamp(DVec3::new(0.4, 1.6, -0.3), 0.3), 6.0);
+    kit.camera(DVec3::new(0.0, 1.0, 2.6), DVec3::new(0.0, -0.4, 0.0));
+    let world = kit.world();
+    let photon_map = PhotonMapSettings { caustic_photons: 60_000, global_photons: 200_000, ..few_photons() };
+    let paths = means(&world, "path", few_photons(), 150);
+    assert_same(&means(&world, "photon-map", photon_map, 6), &paths, 0.015, "lens under a sky");
+}
+
+#[test]
+fn light_of_a_wall_that_shines_and_scatters_is_a_geometric_series() {
+    let (albedo, radiance) = (0.6_f32, 2.0);
+    let mut kit = SceneKit::new();
+    kit.matte("matte", albedo).surface("wall", sphere(DVec3::ZERO, 1.0), "matte");
+    kit.description.objects[0].emission = Some(Emission {
+        color: [radiance; 3],
+        quantity: EmissionQuantity::Radiance,
+        two_sided: true,
+        visible_to_camera: true,
+        texture: None,
+        medium: None,
+    });
+    let expected = f64::from(radiance) / (1.0 - f64::from(albedo));
+    for (what, photon_map) in ways() {
+        let mean = means(&kit.world(), "photon-map", photon_map, 2).mean();
+        photon_kit::assert_close(mean, expected, 0.01, what);
+    }
+}
