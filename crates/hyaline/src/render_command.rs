@@ -159,6 +159,7 @@ fn tell(
         },
         rays: outcome.stats.rays,
         photons: outcome.stats.photons,
+        photon_maps: outcome.photons.map(Into::into),
         branches_cut: outcome.stats.branches_cut,
         peak_memory_bytes: memory::peak_bytes(),
         warnings: warnings.into_texts(),

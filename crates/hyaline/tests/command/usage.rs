@@ -149,6 +149,25 @@ fn the_report_has_the_agreed_keys_on_the_last_line() {
 }
 
 #[test]
+fn the_report_tells_what_each_photon_map_took() {
+    let workshop = Workshop::new();
+    let photons =
+        "--set settings.photon_map.caustic_photons=3000 --set settings.photon_map.global_photons=2e3";
+    let words = format!("scene.toml --spp 1 --integrator photon-map {photons} --json -o a.png");
+    let run = workshop.succeed(&words);
+    let maps = &run.json()["photon_maps"];
+    assert_eq!(maps["caustic"]["emitted"], 3000);
+    assert_eq!(maps["global"]["emitted"], 2000);
+    for map in ["caustic", "global"] {
+        assert!(maps[map]["stored"].as_u64().is_some_and(|stored| stored > 0), "{map}");
+        assert!(maps[map]["bytes"].as_u64().is_some_and(|bytes| bytes > 0), "{map}");
+    }
+    assert!(run.stderr.contains("photons kept: caustic "), "{}", run.stderr);
+    let run = workshop.succeed("scene.toml --spp 1 --json -o a.png");
+    assert!(run.json().get("photon_maps").is_none());
+}
+
+#[test]
 fn a_time_limit_ends_the_run_and_the_passes_are_told() {
     let run = Workshop::new().succeed("scene.toml --time 500ms --json -o a.png");
     let report = run.json();
