@@ -26,19 +26,19 @@ fn map(photons: &[Photon]) -> PhotonMap {
 #[test]
 fn a_plane_under_a_point_light_has_the_irradiance_of_the_cosine_cubed() {
     let height = 1.5;
-    for sigma in [0.0, 0.4] {
+    for sigma in [0.0_f32, 0.4] {
         let mut kit = SceneKit::new();
         kit.matte("matte", 0.5).surface("floor", floor(0.0, 6.0), "matte");
         kit.absorbing_medium("water", 1.333, [sigma; 3], 0).solid("pool", sphere(DVec3::ZERO, 20.0), "water");
         kit.light(point_light(DVec3::Y * height));
         let map = map(&trace(&kit.world(), MapKind::Global, 400_000));
-        for x in [0.0, 0.7, 1.5, 2.5] {
+        for x in [0.0, 0.7, 1.4] {
             let p = DVec3::new(x, 0.0, 0.3 * x);
             let distance = (p - DVec3::Y * height).length();
             let cos = height / distance;
-            let absorbed = float::f64::exp(-f64::from(sigma as f32) * distance);
+            let absorbed = float::f64::exp(-f64::from(sigma) * distance);
             let expected = FLUX * cos.powi(3) / (4.0 * PI * height * height) * absorbed;
-            assert_close(irradiance(&map, p, DVec3::Y, 0.12), expected, 0.05, &format!("σ {sigma}, at {x}"));
+            assert_close(irradiance(&map, p, DVec3::Y, 0.2), expected, 0.05, &format!("σ {sigma}, at {x}"));
         }
     }
 }
@@ -48,8 +48,12 @@ fn light_is_right_on_the_axis_of_a_disc() {
     let (radius, height, radiance) = (0.5, 1.0, 3.0);
     let mut kit = SceneKit::new();
     kit.matte("matte", 0.5).surface("floor", floor(0.0, 6.0), "matte");
-    let disc =
-        ShapeDescription::Disc { center: DVec3::Y * height, normal: -DVec3::Y, radius, inner_radius: 0.0 };
+    let disc = ShapeDescription::Disc {
+        center: DVec3::Y * height,
+        normal: -DVec3::Y,
+        radius,
+        inner_radius: 0.0,
+    };
     kit.lamp("lamp", disc, radiance as f32);
     let map = map(&trace(&kit.world(), MapKind::Global, 400_000));
     let expected = PI * radiance * radius * radius / (radius * radius + height * height);
@@ -74,7 +78,7 @@ fn indirect_light_in_an_integrating_sphere_is_a_geometric_series() {
     let mean_direct = FLUX / (4.0 * PI * radius * radius);
     let rho = f64::from(albedo);
     for n in [DVec3::X, -DVec3::Y, DVec3::new(0.48, 0.6, -0.64)] {
-        let value = irradiance(&map, -n * radius, n, 0.3);
+        let value = irradiance(&map, -n * radius, n, 0.5);
         assert_close(value, rho * mean_direct / (1.0 - rho), 0.04, &format!("indirect at {n}"));
     }
 }
@@ -90,8 +94,7 @@ fn the_power_that_arrives_at_the_wall_of_a_closed_room_is_a_geometric_series() {
         let expected = FLUX / (1.0 - f64::from(albedo));
         assert_close(power(&photons), expected, 0.01, &format!("albedo {albedo}, with glass: {bodies}"));
         let mean = power(&photons) / photons.len() as f64;
-        let unequal =
-            photons.iter().find(|photon| (f64::from(photon.flux.mean(3)) / mean - 1.0).abs() > 1e-3);
+        let unequal = photons.iter().find(|photon| (f64::from(photon.flux.mean(3)) / mean - 1.0).abs() > 1e-3);
         assert!(unequal.is_none(), "a photon of {unequal:?} among those of {mean} W");
     }
 }
@@ -99,7 +102,7 @@ fn the_power_that_arrives_at_the_wall_of_a_closed_room_is_a_geometric_series() {
 #[test]
 fn parallel_light_in_a_mirror_cylinder_has_its_cusp_half_a_radius_from_the_axis() {
     let mut kit = SceneKit::new();
-    kit.matte("matte", 0.5).surface("floor", floor(0.0, 4.0), "matte");
+    kit.matte("matte", 0.5).surface("floor", floor(0.0, 1.0), "matte");
     kit.material("mirror", MaterialKind::PerfectSpecular { reflectance: ColorSource::Constant([1.0; 3]) });
     // The half at +x, lit from -x and from above.
     let cylinder =
@@ -108,8 +111,7 @@ fn parallel_light_in_a_mirror_cylinder_has_its_cusp_half_a_radius_from_the_axis(
     kit.light(LightKind::Directional { direction: DVec3::new(1.0, -0.6, 0.0), irradiance: [1.0; 3] });
     let photons = trace(&kit.world(), MapKind::Caustic, 1_000_000);
     let mut counts = [0_u32; 50];
-    for photon in photons.iter().filter(|photon| photon.p.z.abs() < 0.01 && (0.0..1.0).contains(&photon.p.x))
-    {
+    for photon in photons.iter().filter(|photon| photon.p.z.abs() < 0.004 && (0.0..1.0).contains(&photon.p.x)) {
         counts[(photon.p.x * 50.0) as usize] += 1;
     }
     let brightest = (0..50).max_by_key(|&i| counts[i]).unwrap();

@@ -46,8 +46,10 @@ pub(super) enum Role {
     Specular,
     /// Direct light and caustics are added; the rest is gathered.
     Gather,
-    /// All light is added, and only what a polished part of the finish shows is missing.
+    /// All light is added, but for lights met straight: they share with light sampling.
     LookUp,
+    /// All light is added, and only what a polished part of the finish shows is missing.
+    LookUpAll,
 }
 
 impl<'a> Eye<'a> {
@@ -103,11 +105,12 @@ impl<'a> Eye<'a> {
     fn role(&self, vertex: &Vertex, strand: &Strand) -> Role {
         let gathers = match strand.origin {
             Origin::Camera => self.settings.photon_map.final_gather || !vertex.bsdf.has_diffuse_part(),
-            Origin::Gather { .. } => false,
+            Origin::Gather { .. } | Origin::LookUp => false,
         };
         match (is_specular(&vertex.bsdf), gathers) {
             (true, _) => Role::Specular,
             (false, true) => Role::Gather,
+            (false, false) if self.maps.holds_all => Role::LookUpAll,
             (false, false) => Role::LookUp,
         }
     }
@@ -119,47 +122,31 @@ impl<'a> Eye<'a> {
             return (Spectrum::ZERO, role);
         }
         match role {
-            Role::Specular if strand.origin != Origin::Camera || vertex.bsdf.is_delta() => {
-                (Spectrum::ZERO, role)
-            }
-            Role::Specular => (self.direct_light(vertex, strand, role, sampler), role),
-            Role::Gather => (self.first_light(vertex, strand, role, sampler), role),
-            Role::LookUp => {
+            Role::Specular if strand.origin != Origin::Camera || vertex.bsdf.is_delta() => (Spectrum::ZERO, role),
+            Role::Specular => (self.direct_light(vertex, strand, sampler), role),
+            Role::Gather => (self.first_light(vertex, strand, sampler), role),
+            Role::LookUp | Role::LookUpAll => {
                 let stored = self.look_up(&self.maps.global, &self.maps.global_estimate, vertex, strand);
                 if strand.is_shorter_than(stored.radius) {
-                    (self.first_light(vertex, strand, Role::Gather, sampler), Role::Gather)
-                } else if self.maps.holds_all {
+                    (self.first_light(vertex, strand, sampler), Role::Gather)
+                } else if role == Role::LookUpAll {
                     (stored.value, role)
                 } else {
-                    (stored.value + self.first_light(vertex, strand, role, sampler), role)
+                    (stored.value + self.first_light(vertex, strand, sampler), role)
                 }
             }
         }
     }
 
     /// Light from the lights, straight or over specular surfaces.
-    fn first_light(
-        &mut self,
-        vertex: &Vertex,
-        strand: &Strand,
-        role: Role,
-        sampler: &mut Sampler,
-    ) -> Spectrum {
+    fn first_light(&mut self, vertex: &Vertex, strand: &Strand, sampler: &mut Sampler) -> Spectrum {
         let caustics = self.look_up(&self.maps.caustic, &self.maps.caustic_estimate, vertex, strand);
-        self.direct_light(vertex, strand, role, sampler) + caustics.value
+        self.direct_light(vertex, strand, sampler) + caustics.value
     }
 
-    fn direct_light(
-        &mut self,
-        vertex: &Vertex,
-        strand: &Strand,
-        role: Role,
-        sampler: &mut Sampler,
-    ) -> Spectrum {
+    fn direct_light(&mut self, vertex: &Vertex, strand: &Strand, sampler: &mut Sampler) -> Spectrum {
         let (wo, set) = (-strand.ray.direction, &strand.set);
-        // From a surface that looks up no ray goes on that could meet a light.
-        let use_mis = role != Role::LookUp;
-        DirectLight { world: self.world, vertex, wo, set, use_mis }.sample_one(sampler, self.stats)
+        DirectLight { world: self.world, vertex, wo, set, use_mis: true }.sample_one(sampler, self.stats)
     }
 
     fn look_up(

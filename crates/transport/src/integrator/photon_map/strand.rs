@@ -25,6 +25,9 @@ pub(super) enum Origin {
         /// Whether it went over specular surfaces.
         is_specular: bool,
     },
+    /// A surface that has looked its light up, but for what light sampling leaves to rays: only a light that is met
+    /// straight counts.
+    LookUp,
 }
 
 /// A path of the eye at work.
@@ -67,12 +70,7 @@ impl Strand {
     /// One of `count` strands that share the work of this one.
     pub(super) fn split(&self, count: u32) -> Self {
         let share = 1.0 / count as f32;
-        Self {
-            throughput: self.throughput * share,
-            scale: self.scale * share,
-            is_split: true,
-            ..self.clone()
-        }
+        Self { throughput: self.throughput * share, scale: self.scale * share, is_split: true, ..self.clone() }
     }
 
     /// Walks to the next surface; the light of the surroundings or of the surface is added to `light`.
@@ -97,7 +95,7 @@ impl Strand {
                     let radiance = direct::surface_radiance(world, &vertex, &self.ray, self.sampled);
                     *light += self.throughput * radiance;
                 }
-                Some(vertex)
+                (self.origin != Origin::LookUp).then_some(vertex)
             }
         }
     }
@@ -106,7 +104,7 @@ impl Strand {
     /// the caustic map has it.
     fn sees_lights(&self) -> bool {
         match self.origin {
-            Origin::Camera => true,
+            Origin::Camera | Origin::LookUp => true,
             Origin::Gather { is_specular, .. } => !is_specular,
         }
     }
@@ -116,8 +114,7 @@ impl Strand {
         matches!(self.origin, Origin::Gather { distance, .. } if distance < radius)
     }
 
-    /// Goes on in a direction drawn at `vertex`, where the surface has looked its light up only in a polished one.
-    /// Returns whether it goes on.
+    /// Goes on in a direction drawn at `vertex`; returns whether it does.
     pub(super) fn scatter(
         &mut self,
         world: &World,
@@ -130,10 +127,16 @@ impl Strand {
         let wo = -self.ray.direction;
         let Some(scattered) = vertex.bsdf.sample(wo, u_lobe, u, Transport::Radiance) else { return false };
         let is_specular = is_specular_event(&vertex.bsdf, scattered.is_delta);
-        if role == Role::LookUp && !is_specular {
+        if role == Role::LookUpAll && !is_specular {
             return false;
         }
-        self.note(vertex, &scattered, is_specular);
+        self.count(vertex, &scattered);
+        self.origin = match self.origin {
+            Origin::Gather { distance, .. } if is_specular => Origin::Gather { distance, is_specular },
+            origin if is_specular => origin,
+            _ if role == Role::LookUp => Origin::LookUp,
+            _ => Origin::Gather { distance: 0.0, is_specular: false },
+        };
         if max_bounces.is_some_and(|limit| self.bounces > limit) || !self.survives(world.lanes, sampler) {
             return false;
         }
@@ -144,8 +147,8 @@ impl Strand {
         true
     }
 
-    /// Notes what a direction drawn at `vertex` makes of the strand.
-    fn note(&mut self, vertex: &Vertex, scattered: &BsdfSample, goes_specular: bool) {
+    /// Counts a direction drawn at `vertex`.
+    fn count(&mut self, vertex: &Vertex, scattered: &BsdfSample) {
         self.throughput *= scattered.weight;
         self.scale *= scattered.eta_scale;
         self.visible = mask::PATH;
@@ -156,11 +159,6 @@ impl Strand {
             self.crossings = 0;
             self.bounces += 1;
             self.sampled = Some((vertex.hit.p, scattered.pdf));
-        }
-        match &mut self.origin {
-            Origin::Gather { is_specular, .. } if goes_specular => *is_specular = true,
-            Origin::Camera if goes_specular => {}
-            origin => *origin = Origin::Gather { distance: 0.0, is_specular: false },
         }
     }
 
