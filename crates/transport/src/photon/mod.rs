@@ -8,6 +8,7 @@ pub mod record;
 pub mod specular;
 pub mod trace;
 pub mod tree;
+mod projection;
 
 pub use emission::{PhotonEmitter, PhotonStart};
 pub use gather::{Estimate, Gathered, PhotonMap};
