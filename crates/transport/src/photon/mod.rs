@@ -4,11 +4,11 @@ pub mod emission;
 pub mod gather;
 pub mod kernel;
 pub mod maps;
+mod projection;
 pub mod record;
 pub mod specular;
 pub mod trace;
 pub mod tree;
-mod projection;
 
 pub use emission::{PhotonEmitter, PhotonStart};
 pub use gather::{Estimate, Gathered, PhotonMap};

@@ -6,10 +6,13 @@
 //! one leaves to the other would be lost or counted twice.
 
 use hyaline_scattering::SurfaceBsdf;
+use hyaline_world::NEARLY_POLISHED;
 
 /// Lobes narrower than this, on the scale of GGX, are traced like a mirror's: too few photons would fall into them
 /// for an estimate, and few rays need to be traced through them for a smooth picture.
-pub const NARROW_LOBE: f32 = 0.2;
+///
+/// It is the GGX width of the roughness up to which photons are aimed at a finish.
+pub const NARROW_LOBE: f32 = NEARLY_POLISHED * NEARLY_POLISHED;
 
 /// Whether photons are not kept at the surface and the eye looks on through it.
 pub fn is_specular(bsdf: &SurfaceBsdf) -> bool {
