@@ -33,7 +33,8 @@ pub(crate) fn idle(integrator: &str, given: &Settings, settings: &RenderSettings
     tell(given.light_samples.is_some() && !is_whitted, "light_samples", "only 'whitted' uses it");
     tell(given.debug != Default::default() && integrator != DEBUG, "debug", "only 'debug' uses it");
     let uses_photons = uses_photon_map(integrator, settings);
-    let PhotonMapSettings { projection, projection_cells, final_gather, gather_rays, .. } = given.photon_map;
+    let PhotonMapSettings { projection, projection_cells, final_gather, gather_rays, exclude_direct, .. } =
+        given.photon_map;
     let defaults = PhotonMapSettings::default();
     tell(
         given.photon_map != defaults && !uses_photons,
@@ -49,6 +50,17 @@ pub(crate) fn idle(integrator: &str, given: &Settings, settings: &RenderSettings
         uses_photons && gather_rays != defaults.gather_rays && !final_gather,
         "photon_map.gather_rays",
         "it needs final_gather = true",
+    );
+    tell(
+        uses_photons && exclude_direct && !final_gather,
+        "photon_map.exclude_direct",
+        "without final_gather direct light is never looked up",
+    );
+    let (asked, nearest) = (given.photon_map.volume_photons, given.photon_map.nearest.volume);
+    tell(
+        uses_photons && (asked, nearest) != (defaults.volume_photons, defaults.nearest.volume),
+        "photon_map.volume_photons",
+        "there is no volume map yet",
     );
     lines
 }
@@ -120,9 +132,9 @@ mod tests {
         assert_eq!(idle_keys("photon-map", &settings), Vec::<String>::new());
         settings.photon_map.projection = ProjectionMaps::None;
         settings.photon_map.final_gather = false;
-        assert_eq!(
-            idle_keys("photon-map", &settings),
-            ["settings.photon_map.projection_cells", "settings.photon_map.gather_rays"]
-        );
+        settings.photon_map.exclude_direct = true;
+        let keys = ["projection_cells", "gather_rays", "exclude_direct"];
+        let keys = keys.map(|key| format!("settings.photon_map.{key}"));
+        assert_eq!(idle_keys("photon-map", &settings), keys);
     }
 }

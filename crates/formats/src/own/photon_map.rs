@@ -22,7 +22,7 @@ const MAX_NEAREST: i64 = 1_000_000;
 /// Most photons in a leaf of the tree.
 const MAX_LEAF: i64 = 1024;
 /// Most cells along an axis of a projection map.
-const MAX_CELLS: i64 = 4096;
+const MAX_CELLS: i64 = 1024;
 /// Most gather rays of a path and pass.
 const MAX_GATHER_RAYS: i64 = 65_536;
 
