@@ -22,12 +22,17 @@ const SPARSE: f32 = 3.0;
 pub struct PhotonMaps {
     /// Light over specular surfaces alone.
     pub caustic: PhotonMap,
+    /// Caustics as other surfaces are lit by them: few rays that gather would meet them, and each would bring a lot.
+    /// Empty where nothing gathers.
+    pub rebound: PhotonMap,
     /// All light, or all that is neither direct nor caustic: see `holds_all`.
     pub global: PhotonMap,
     /// Whether the global map holds direct light and caustics, too.
     pub holds_all: bool,
     /// How the caustic map is looked up.
     pub caustic_estimate: Estimate,
+    /// How the map of lit caustics is looked up.
+    pub rebound_estimate: Estimate,
     /// How the global map is looked up.
     pub global_estimate: Estimate,
     /// What was traced and kept.
@@ -54,6 +59,8 @@ pub struct MapStatistics {
 pub struct PhotonStatistics {
     /// The caustic map.
     pub caustic: MapStatistics,
+    /// The map of light that caustics throw on other surfaces.
+    pub rebound: MapStatistics,
     /// The global map.
     pub global: MapStatistics,
 }
@@ -67,15 +74,23 @@ impl PhotonMaps {
         let kind = if holds_all { MapKind::Global } else { MapKind::Indirect };
         let (caustic, caustic_statistics) =
             stage.make(MapKind::Caustic, asked.caustic_photons, asked.projection, stats);
+        let (rebound, rebound_statistics) =
+            stage.make(MapKind::Rebound, asked.caustic_photons / 2, asked.projection, stats);
         let (global, global_statistics) =
             stage.make(kind, asked.global_photons, ProjectionMaps::None, stats);
         Self {
             caustic_estimate: estimate(asked, &caustic, asked.nearest.caustic),
+            rebound_estimate: estimate(asked, &rebound, asked.nearest.global),
             global_estimate: estimate(asked, &global, asked.nearest.global),
             caustic,
+            rebound,
             global,
             holds_all,
-            statistics: PhotonStatistics { caustic: caustic_statistics, global: global_statistics },
+            statistics: PhotonStatistics {
+                caustic: caustic_statistics,
+                rebound: rebound_statistics,
+                global: global_statistics,
+            },
         }
     }
 }

@@ -16,4 +16,4 @@ pub use kernel::Kernel;
 pub use maps::{MapStatistics, PhotonMaps, PhotonStatistics};
 pub use record::{PackedPhoton, Photon, PhotonKind};
 pub use trace::{MapKind, PhotonTracer};
-pub use tree::{Disc, Nearest, PointTree, Region};
+pub use tree::{Accept, All, Disc, Nearest, PointTree, Region};

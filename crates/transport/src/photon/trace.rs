@@ -34,6 +34,8 @@ const CHUNK: u32 = 4096;
 pub enum MapKind {
     /// L S+ D: light that came over specular surfaces alone.
     Caustic,
+    /// L S+ D S* D: caustics as other surfaces are lit by them.
+    Rebound,
     /// All light.
     Global,
     /// Light that was scattered by a surface that is not specular; the rest is counted in other ways.
@@ -46,7 +48,16 @@ impl MapKind {
         match self {
             Self::Caustic => kind == PhotonKind::Caustic,
             Self::Global => true,
-            Self::Indirect => kind == PhotonKind::Indirect,
+            Self::Rebound | Self::Indirect => kind == PhotonKind::Indirect,
+        }
+    }
+
+    /// Whether photons of this kind go on when a surface that is not specular has scattered them.
+    fn follows(self, kind: PhotonKind) -> bool {
+        match self {
+            Self::Caustic => false,
+            Self::Rebound => kind == PhotonKind::Caustic,
+            Self::Global | Self::Indirect => true,
         }
     }
 
@@ -54,6 +65,7 @@ impl MapKind {
     fn tag(self) -> u32 {
         match self {
             Self::Caustic => u32::MAX,
+            Self::Rebound => u32::MAX - 2,
             Self::Global | Self::Indirect => u32::MAX - 1,
         }
     }
@@ -189,7 +201,7 @@ impl<'a> Flight<'a> {
             if self.kind == PhotonKind::Direct {
                 self.kind = PhotonKind::Caustic;
             }
-        } else if self.tracer.map == MapKind::Caustic {
+        } else if !self.tracer.map.follows(self.kind) {
             return false;
         } else {
             self.kind = PhotonKind::Indirect;

@@ -21,6 +21,7 @@ use crate::first_hit;
 use crate::integrator::RenderSettings;
 use crate::photon::gather::{Estimate, Gathered, PhotonMap};
 use crate::photon::maps::PhotonMaps;
+use crate::photon::record::PhotonKind;
 use crate::photon::specular::is_specular;
 use crate::photon::tree::Nearest;
 use crate::stats::Stats;
@@ -124,24 +125,37 @@ impl<'a> Eye<'a> {
         match role {
             Role::Specular if strand.origin != Origin::Camera || vertex.bsdf.is_delta() => (Spectrum::ZERO, role),
             Role::Specular => (self.direct_light(vertex, strand, sampler), role),
-            Role::Gather => (self.first_light(vertex, strand, sampler), role),
+            Role::Gather => (self.first_light(vertex, strand, role, sampler), role),
             Role::LookUp | Role::LookUpAll => {
-                let stored = self.look_up(&self.maps.global, &self.maps.global_estimate, vertex, strand);
+                let stored = self.stored_light(vertex, strand);
                 if strand.is_shorter_than(stored.radius) {
-                    (self.first_light(vertex, strand, sampler), Role::Gather)
+                    (self.first_light(vertex, strand, Role::Gather, sampler), Role::Gather)
                 } else if role == Role::LookUpAll {
                     (stored.value, role)
                 } else {
-                    (stored.value + self.first_light(vertex, strand, sampler), role)
+                    (stored.value + self.first_light(vertex, strand, role, sampler), role)
                 }
             }
         }
     }
 
-    /// Light from the lights, straight or over specular surfaces.
-    fn first_light(&mut self, vertex: &Vertex, strand: &Strand, sampler: &mut Sampler) -> Spectrum {
-        let caustics = self.look_up(&self.maps.caustic, &self.maps.caustic_estimate, vertex, strand);
-        self.direct_light(vertex, strand, sampler) + caustics.value
+    /// Light from the lights, straight or over specular surfaces; where rays gather, that of caustics elsewhere.
+    fn first_light(&mut self, vertex: &Vertex, strand: &Strand, role: Role, sampler: &mut Sampler) -> Spectrum {
+        let mut light = self.direct_light(vertex, strand, sampler);
+        let maps = self.maps;
+        if strand.origin == Origin::Camera {
+            light += self.look_up(&maps.caustic, &maps.caustic_estimate, vertex, strand, |_| true).value;
+        }
+        if role == Role::Gather {
+            light += self.look_up(&maps.rebound, &maps.rebound_estimate, vertex, strand, |_| true).value;
+        }
+        light
+    }
+
+    /// Light in the global map. The caustics that a gather ray meets are counted where it began.
+    fn stored_light(&mut self, vertex: &Vertex, strand: &Strand) -> Gathered {
+        let counts = |kind| strand.origin == Origin::Camera || kind != PhotonKind::Caustic;
+        self.look_up(&self.maps.global, &self.maps.global_estimate, vertex, strand, counts)
     }
 
     fn direct_light(&mut self, vertex: &Vertex, strand: &Strand, sampler: &mut Sampler) -> Spectrum {
@@ -155,7 +169,8 @@ impl<'a> Eye<'a> {
         estimate: &Estimate,
         vertex: &Vertex,
         strand: &Strand,
+        counts: impl Fn(PhotonKind) -> bool,
     ) -> Gathered {
-        estimate.radiance(map, &vertex.hit, &vertex.bsdf, -strand.ray.direction, |_| true, &mut self.scratch)
+        estimate.radiance(map, &vertex.hit, &vertex.bsdf, -strand.ray.direction, counts, &mut self.scratch)
     }
 }

@@ -6,13 +6,16 @@
 //! yes cells.
 
 use super::Departure;
-use super::ball::Ball;
+use super::ball::{Ball, merged};
 use super::grid::Grid;
 use super::turn::turned_frame;
 use hyaline_math::float::f64 as float;
 use hyaline_math::{DVec2, Frame, Vec2};
 use hyaline_world::light::{DirectionalLight, DiscPatch, EnvironmentLight, RestrictedSky, SceneSphere};
 use rayon::prelude::*;
+
+/// Targets that the surroundings are aimed at, at most.
+const MOST_SKY_TARGETS: usize = 256;
 
 /// A directional light's disc by yes and no.
 #[derive(Clone, Debug)]
@@ -58,6 +61,8 @@ impl SkyCells {
     /// `None` where nothing can be met.
     pub(super) fn new(light: &EnvironmentLight, targets: &[Ball], blocks: u32, cells: u32) -> Option<Self> {
         let blocks = light.blocks(blocks);
+        // Shadows are blurred by the width of a block: finer targets would cost time and tell nothing.
+        let targets = &merged(targets.to_vec(), MOST_SKY_TARGETS);
         let disc = |index: u32| {
             let cone = light.cone_of_block(blocks, [index % blocks[0], index / blocks[0]]);
             let frame = Frame::from_normal(-cone.axis.as_vec3());

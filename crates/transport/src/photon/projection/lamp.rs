@@ -7,14 +7,15 @@
 
 use super::ball::Ball;
 use super::beam::Beam;
+use super::cluster::{self, Cluster, Piece};
 use super::grid::Grid;
 use super::patch::Patch;
 use super::turn::turned_frame;
-use super::{Departure, cluster, patch};
+use super::{Departure, patch};
 use hyaline_geometry::{AreaSample, ItemGeometry, Primitive};
 use hyaline_math::{DVec2, Frame, Vec2};
 use hyaline_sampling::Distribution1d;
-use hyaline_world::light::{Light, UnitBox};
+use hyaline_world::light::{EmissionSample, Light, UnitBox};
 use rayon::prelude::*;
 
 /// Places and directions by yes and no.
@@ -40,8 +41,8 @@ struct Part {
 #[derive(Clone, Debug)]
 enum Place {
     Shape(Box<Primitive>, UnitBox),
-    /// Faces by area.
-    Faces(Vec<u32>, Distribution1d),
+    /// Pieces of faces by area.
+    Mesh(Vec<Piece>, Distribution1d),
 }
 
 impl LampCells {
@@ -77,8 +78,7 @@ impl LampCells {
         let pick = self.choice.sample(u_position.x);
         let part = &self.parts[pick.index];
         let sample = part.place.sample(light, Vec2::new(pick.u, u_position.y))?;
-        let frame = turned_frame(&part.frame, sample.n);
-        let emission = light.emission_at(&sample, &frame, part.grid.sample(u_direction)?)?;
+        let emission = part.emission(light, &sample, part.grid.sample(u_direction)?)?;
         Some(Departure::from(emission).scaled(part.kept() / f64::from(pick.probability)))
     }
 
@@ -93,6 +93,13 @@ impl Part {
     fn kept(&self) -> f64 {
         self.share * self.grid.fraction()
     }
+
+    /// Light from a place of this part.
+    ///
+    /// - `u`: the point of the square of directions.
+    fn emission(&self, light: &Light, sample: &AreaSample, u: Vec2) -> Option<EmissionSample> {
+        light.emission_at(sample, &turned_frame(&self.frame, sample.n), u)
+    }
 }
 
 impl Place {
@@ -102,10 +109,12 @@ impl Place {
             Self::Shape(primitive, unit_box) => {
                 Some(primitive.sample_area(unit_box.at(u.as_dvec2()).as_vec2()))
             }
-            Self::Faces(faces, by_area) => {
+            Self::Mesh(pieces, by_area) => {
                 let Light::Mesh(mesh) = light else { return None };
                 let pick = by_area.sample(u.x);
-                Some(mesh.sample_face(faces[pick.index], Vec2::new(pick.u, u.y)))
+                let piece = &pieces[pick.index];
+                let inside = piece.unit_box().at(DVec2::new(f64::from(pick.u), f64::from(u.y)));
+                Some(mesh.sample_face(piece.face, inside.as_vec2()))
             }
         }
     }
@@ -113,7 +122,8 @@ impl Place {
     fn memory(&self) -> usize {
         match self {
             Self::Shape(..) => size_of::<Primitive>(),
-            Self::Faces(faces, _) => 2 * size_of_val(&faces[..]),
+            // With a step count for each piece.
+            Self::Mesh(pieces, _) => size_of_val(&pieces[..]) + pieces.len() * size_of::<u32>(),
         }
     }
 }
@@ -129,17 +139,14 @@ fn places(geometry: &ItemGeometry, count: u32) -> Vec<(Place, f64, Patch)> {
             })
             .collect(),
         ItemGeometry::Mesh { mesh, transform } => {
-            let (mesh, transform) = (mesh.mesh(), transform.as_ref());
-            let area = |face: u32| cluster::area(mesh, transform, face);
-            let faces: Vec<u32> = (0..mesh.face_count() as u32).collect();
-            let total: f64 = faces.iter().map(|&face| area(face)).sum();
-            let clusters = cluster::cut(mesh, transform, faces, count);
-            let place = |cluster: cluster::Cluster| {
-                let areas: Vec<f64> = cluster.faces.iter().map(|&face| area(face)).collect();
-                let share = areas.iter().sum::<f64>() / total;
-                let by_area = Distribution1d::from_f64(areas.into_iter()).ok()?;
-                Some((Place::Faces(cluster.faces, by_area), share, cluster.patch))
+            let faces: Vec<u32> = (0..mesh.mesh().face_count() as u32).collect();
+            let place = |Cluster { pieces, patch }| {
+                let shares = pieces.iter().map(|piece| f64::from(piece.share));
+                let share = shares.clone().sum();
+                let by_area = Distribution1d::from_f64(shares).ok()?;
+                Some((Place::Mesh(pieces, by_area), share, patch))
             };
+            let clusters = cluster::cut(mesh.mesh(), transform.as_ref(), faces, count);
             clusters.into_iter().filter_map(place).collect()
         }
     }
@@ -151,4 +158,45 @@ fn grid_of(light: &Light, patch: &Patch, frame: &Frame, targets: &[Ball], cells:
         let beam = Beam::new(patch.ball, directions);
         move |target: &Ball| beam.may_meet(target)
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use hyaline_geometry::Shape;
+    use hyaline_geometry::shape::Sphere;
+    use hyaline_math::DVec3;
+    use hyaline_spectrum::Spectrum;
+    use hyaline_testkit::Random;
+    use hyaline_world::light::{ShapeLight, ShiningSides};
+
+    #[test]
+    fn directions_from_all_places_of_a_part_lie_in_the_cone_that_its_cells_are_judged_by() {
+        let ball = Primitive::new(Shape::Sphere(Sphere::new(1.0).unwrap()));
+        let light = Light::Shape(ShapeLight::new(ball, Spectrum::ONE, ShiningSides::Both));
+        let everything = [Ball { center: DVec3::ZERO, radius: 10.0 }];
+        let map = LampCells::new(&light, &ItemGeometry::Shape(ball), &everything, 64, 8).unwrap();
+        assert!((map.kept() - 1.0).abs() < 1e-6);
+        let mut random = Random::from_seed(1);
+        let mut pair = || Vec2::new(random.uniform_f32(), random.uniform_f32());
+        for part in &map.parts {
+            let Place::Shape(_, place_box) = &part.place else { panic!("a shape has boxes") };
+            let spread = super::super::patch::cut(&ball, 64)
+                .iter()
+                .find(|(unit_box, _)| unit_box == place_box)
+                .map(|(_, patch)| patch.normals.half_angle)
+                .unwrap();
+            for _ in 0..50 {
+                let u = pair();
+                let cell = (u * 8.0).floor().as_dvec2() / 8.0;
+                let unit_box = UnitBox { min: cell, max: cell + 0.125 };
+                let cone = light.cone_at(&part.frame, &unit_box).widened(spread);
+                let sample = part.place.sample(&light, pair()).unwrap();
+                let direction = part.emission(&light, &sample, u).unwrap().direction;
+                let angle =
+                    2.0 * hyaline_math::float::f64::asin(0.5 * direction.as_dvec3().distance(cone.axis));
+                assert!(angle <= cone.half_angle, "{angle} {cone:?}");
+            }
+        }
+    }
 }

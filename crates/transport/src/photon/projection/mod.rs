@@ -242,7 +242,7 @@ impl<'w> Builder<'w> {
         match light {
             Light::Directional(sun) => Discs::new(&sun.scene, objects).map_or_else(whole, Projection::Discs),
             Light::Environment(sky) => Discs::new(sky.scene(), objects).map_or_else(whole, Projection::Discs),
-            Light::Shape(_) | Light::Mesh(_) => self.lamp(index, light, objects),
+            Light::Shape(_) | Light::Mesh(_) => self.lamp(index, light, &self.targets.merged_objects),
             Light::Point(_) | Light::Spot(_) => {
                 Cones::new(light, objects).map_or_else(whole, Projection::Cones)
             }

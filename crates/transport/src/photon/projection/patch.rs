@@ -73,30 +73,33 @@ fn bound(primitive: &Primitive, unit_box: &UnitBox) -> Patch {
 
 /// The same for a turned profile.
 fn bound_turned(primitive: &Primitive, unit_box: &UnitBox, n: DVec3) -> Patch {
-    let Profile { middle, reach, away, turning } = Profile::of(&primitive.shape, unit_box);
+    let profile = Profile::of(&primitive.shape, unit_box);
+    let Profile { middle, reach, .. } = profile;
     let linear = primitive.transform.linear();
     // No range of azimuths exceeds a whole turn, so a share of it is at most that share of a whole turn.
     let half_width = PI * (unit_box.max.x - unit_box.min.x);
-    let (normals, ball) = match turning {
-        Some([turning, cosine]) => {
-            let center = primitive.transform.point(away * middle.x + DVec3::Y * middle.y);
-            // |q - center|² of a point at radius r and azimuth a off: (r - m)² + Δy² + 2 r m (1 - cos a).
-            let chord2 = 2.0 * (middle.x + reach) * middle.x * (1.0 - float::cos(half_width));
-            let farthest = (reach * reach + chord2).sqrt() * stretch(&linear);
-            // From the middle around the axis, then along the profile.
-            let spread = turning + half_width * cosine;
-            (Cone { axis: n, half_angle: spread.min(PI) }, Ball::about(center, farthest))
-        }
-        None => (Cone::ALL, whole_bounds(primitive)),
-    };
-    // An uneven placement bends normals apart.
-    let is_even = normals.half_angle < 1e-9 || similarity_scale(&linear).is_some();
-    Patch { ball, normals: if is_even { normals } else { Cone::ALL } }
+    let center = primitive.transform.point(profile.away * middle.x + DVec3::Y * middle.y);
+    // The square of the distance to a point at radius r, azimuth a off, is (r - m)² + Δy² + 2 r m (1 - cos a).
+    let chord2 = 2.0 * (middle.x + reach) * middle.x * (1.0 - float::cos(half_width));
+    let farthest = (reach * reach + chord2).sqrt() * stretch(&linear);
+    // From the middle around the axis, then along the profile.
+    let spread = profile.turning + half_width * profile.cosine;
+    let normals = Cone { axis: n, half_angle: placed_spread(primitive, unit_box, spread.min(PI)) };
+    Patch { ball: Ball::about(center, farthest), normals }
 }
 
-fn whole_bounds(primitive: &Primitive) -> Ball {
-    let bounds = primitive.bounds();
-    Ball::about(bounds.center().as_dvec3(), f64::from(bounds.radius()))
+/// The angle between placed normals when it is `spread` at most in object space: uneven placements bend them apart.
+fn placed_spread(primitive: &Primitive, unit_box: &UnitBox, spread: f64) -> f64 {
+    let placement = &primitive.transform;
+    if similarity_scale(&placement.linear()).is_some() {
+        return spread;
+    }
+    // The images of the others end in a ball about the end of that of the middle one.
+    let middle = placement.normal(primitive.shape.sample_area(unit_box.center()).1);
+    let map = DMat3::from_cols_array_2d(&DVec3::AXES.map(|axis| placement.normal(axis).to_array()));
+    let apart = stretch(&map) * 2.0 * float::sin(0.5 * spread);
+    let sine = apart / middle.length();
+    if sine < 1.0 { float::asin(sine) } else { PI }
 }
 
 /// A part of a profile.
@@ -107,9 +110,10 @@ struct Profile {
     reach: f64,
     /// Unit direction from the axis at the azimuth of the middle of the box.
     away: DVec3,
-    /// Largest angle between its normals and that at the middle of the box, and the cosine of that one to the
-    /// horizontal; `None` where it turns by more than a half turn.
-    turning: Option<[f64; 2]>,
+    /// Largest angle between its normals and that at the middle of the box.
+    turning: f64,
+    /// Cosine of the one at the middle to the horizontal.
+    cosine: f64,
 }
 
 impl Profile {
@@ -128,11 +132,15 @@ impl Profile {
             float::atan2(a.perp_dot(b).abs(), a.dot(b))
         };
         let (lower, upper) = (angle(0, 1) + angle(1, 2), angle(2, 3) + angle(3, 4));
-        let middle = 0.5 * (points[0].0 + points[4].0);
         // An arc of at most a half turn lies in the disc that its chord is the diameter of.
-        let reach = 0.5 * points[0].0.distance(points[4].0);
-        let is_minor = lower + upper <= PI * (1.0 + 1e-9);
-        Self { middle, reach, away, turning: is_minor.then(|| [lower.max(upper), points[2].1.x.abs()]) }
+        let disc = |i: usize, j: usize| {
+            let (a, b) = (points[i].0, points[j].0);
+            (0.5 * (a + b), 0.5 * a.distance(b))
+        };
+        let (middle, half_chord) = disc(0, 4);
+        let quarters = (0..4).map(|i| disc(i, i + 1)).map(|(center, r)| center.distance(middle) + r);
+        let reach = if lower + upper <= PI { half_chord } else { quarters.fold(0.0, f64::max) };
+        Self { middle, reach, away, turning: lower.max(upper), cosine: points[2].1.x.abs() }
     }
 }
 
@@ -145,7 +153,8 @@ fn similarity_scale(linear: &DMat3) -> Option<f64> {
 
 /// A bound on the factor by which a map stretches any vector.
 fn stretch(linear: &DMat3) -> f64 {
-    let columns = [linear.x_axis, linear.y_axis, linear.z_axis];
-    similarity_scale(linear)
-        .unwrap_or_else(|| columns.iter().map(|column| column.length_squared()).sum::<f64>().sqrt())
+    // No eigenvalue of a matrix exceeds its largest sum of absolute values in a column.
+    let gram = linear.transpose() * *linear;
+    let columns = [gram.x_axis, gram.y_axis, gram.z_axis];
+    columns.iter().map(|column| column.abs().element_sum()).fold(0.0, f64::max).sqrt()
 }

@@ -19,6 +19,8 @@ pub(in crate::photon) struct Targets {
     pub(super) parts: Vec<Ball>,
     /// One ball about everything specular of each object.
     pub(super) objects: Vec<Ball>,
+    /// The same, neighbors put together where there are many.
+    pub(super) merged_objects: Vec<Ball>,
 }
 
 impl Targets {
@@ -30,9 +32,10 @@ impl Targets {
             let balls = balls_of(world, item, share.clamp(1, MOST_PER_ITEM));
             by_object.entry(world.items[item as usize].object.0).or_default().extend(balls);
         }
-        let objects = by_object.values().filter_map(|balls| Ball::about_balls(balls)).collect();
+        let objects: Vec<Ball> = by_object.values().filter_map(|balls| Ball::about_balls(balls)).collect();
         let parts = merged(by_object.into_values().flatten().collect(), MOST_BALLS);
-        Self { parts, objects }
+        let merged_objects = merged(objects.clone(), MOST_BALLS);
+        Self { parts, objects, merged_objects }
     }
 }
 
