@@ -1,6 +1,6 @@
 //! Tests of `[settings.photon_map]` and of `debug`: every key is read, and what can't be meant is refused.
 
-use crate::load_toml_text;
+use crate::{load_mitsuba_text, load_toml_text};
 use hyaline_scene::{
     Collection, DebugView, NearestPhotons, PhotonKernel, PhotonMapSettings, ProjectionMaps, SceneDescription,
     SceneError, Settings,
@@ -89,6 +89,20 @@ fn settings_can_be_overridden_one_by_one() {
     let settings = overridden("settings.photon_map.kernel.cone", "2").unwrap().photon_map;
     assert_eq!(settings.kernel, PhotonKernel::Cone { k: 2.0 });
     assert_eq!(overridden("settings.debug", "photon-maps").unwrap().debug, DebugView::PhotonMap);
+}
+
+#[test]
+fn settings_of_an_imported_scene_can_be_overridden_too() {
+    let text = "<scene version='3.0.0'><sensor type='perspective'/><emitter type='constant'/></scene>";
+    let overrides = [("caustic_photons", "2e6"), ("nearest.volume", "9"), ("max_radius", "2 mm")]
+        .map(|(key, value)| (format!("settings.photon_map.{key}"), value.to_owned()));
+    let scene = load_mitsuba_text(text, "scene.xml", Path::new("."), &overrides).unwrap();
+    let settings = scene.settings.photon_map;
+    assert_eq!((settings.caustic_photons, settings.nearest.volume), (2_000_000, 9));
+    assert_eq!(settings.max_radius, Some(0.002));
+    let overrides = [("settings.debug".to_owned(), "media".to_owned())];
+    let scene = load_mitsuba_text(text, "scene.xml", Path::new("."), &overrides).unwrap();
+    assert_eq!(scene.settings.debug, DebugView::Medium);
 }
 
 #[test]
