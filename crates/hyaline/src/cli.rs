@@ -46,7 +46,7 @@ pub(crate) struct RenderArguments {
     /// Picture to write: .exr, .png or .pfm; may be repeated [default: the scene's stem .png and .exr, here]
     #[arg(short, long, value_name = "FILE")]
     pub(crate) output: Vec<PathBuf>,
-    /// How light is carried: path or whitted [default: the scene's, else path]
+    /// How light is carried: path, whitted, photon-map, or debug to look at the scene [default: the scene's, else path]
     #[arg(long, value_name = "NAME")]
     pub(crate) integrator: Option<String>,
     /// Samples per pixel in all

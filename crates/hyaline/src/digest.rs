@@ -1,9 +1,10 @@
 //! What a film's passes belong to: two films may be added up only where all of this is the same.
 //!
-//! Covered are the scene's content (files it names included), integrator and its settings, size and filter of the
+//! Covered are the scene's content (files it names included), integrator and the settings it uses, size and filter of the
 //! picture, camera, crop, seed, and the version of the algorithms; not threads, length of run, outputs or paths.
 
 use crate::plan::Plan;
+use crate::used_settings;
 use hyaline_film::{DigestPart, FilmHeader};
 use hyaline_render::ALGORITHM_VERSION;
 use hyaline_scene::SceneDescription;
@@ -18,13 +19,7 @@ pub(crate) fn film_header(scene: &SceneDescription, plan: &Plan) -> FilmHeader {
         part("algorithm version", ALGORITHM_VERSION.to_string()),
         part("scene", content(scene)),
         part("integrator", plan.integrator.name().to_owned()),
-        part(
-            "settings",
-            format!(
-                "sampler {:?}, max_depth {:?}, min_weight {}, light_samples {}",
-                settings.sampler, settings.max_depth, settings.min_weight, settings.light_samples
-            ),
-        ),
+        part("settings", used_settings::in_words(plan.integrator.name(), settings)),
         part("filter", format!("{:?}", scene.film.filter)),
         part("camera", plan.view.camera.to_string()),
     ];

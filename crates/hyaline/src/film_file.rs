@@ -16,13 +16,14 @@ pub(crate) struct FilmFiles {
 }
 
 impl FilmFiles {
-    /// `--resume` reads and writes again; with `--film` it is written there instead.
+    /// `--resume` reads and writes again; with `--film` it is written there instead, where no other film may be.
     ///
     /// # Errors
     /// A film that is not resumed would be overwritten, or nothing can be written there.
     pub(crate) fn new(film: Option<&Path>, resume: Option<&Path>) -> Result<Self, Failure> {
-        if let (Some(film), None) = (film, resume)
+        if let Some(film) = film
             && film.exists()
+            && !resume.is_some_and(|resume| is_same_file(film, resume))
         {
             return Err(Failure::usage(format!("{}: there is a film already", film.display()))
                 .with_remedy("go on with it by --resume, or give another name"));
@@ -59,6 +60,11 @@ impl FilmFiles {
             }
         }
     }
+}
+
+/// Whether two names are those of one file that is there.
+fn is_same_file(a: &Path, b: &Path) -> bool {
+    matches!((a.canonicalize(), b.canonicalize()), (Ok(a), Ok(b)) if a == b)
 }
 
 /// Reads a film.

@@ -21,6 +21,8 @@ mod render_command;
 mod report;
 mod scene_source;
 mod signal;
+mod used_settings;
+mod word_order;
 
 use clap::Parser;
 use cli::{Cli, Command};
@@ -28,7 +30,7 @@ use failure::Failure;
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
-    let cli = Cli::parse();
+    let cli = Cli::parse_from(word_order::verb_first(std::env::args_os()));
     let result = match cli.command {
         None => render_command::run(&cli.render),
         Some(Command::Render(arguments)) => render_command::run(&arguments),

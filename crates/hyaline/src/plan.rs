@@ -14,7 +14,7 @@ use hyaline_world::camera::PixelFilter;
 /// Most pixels of a picture: beyond that sums would need tens of gigabytes.
 const MAX_PIXELS: u64 = 1 << 28;
 /// Integrators that are planned.
-const NOT_YET: [&str; 3] = ["photon-map", "merging", "debug"];
+const NOT_YET: [&str; 1] = ["merging"];
 
 /// Everything that decides on the picture but the scene itself.
 pub(crate) struct Plan {

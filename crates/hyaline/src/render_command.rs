@@ -10,7 +10,7 @@ use crate::plan::{self, Plan};
 use crate::progress_bar::Bar;
 use crate::report::{Report, Seconds};
 use crate::signal::Signals;
-use crate::{inventory, memory, picture, scene_source};
+use crate::{inventory, memory, picture, scene_source, used_settings};
 use hyaline_film::Film;
 use hyaline_render::{Job, Outcome, Workers};
 use hyaline_world::World;
@@ -71,6 +71,9 @@ fn make_ready(
     let start = Instant::now();
     let plan = plan::plan(arguments, &mut scene)?;
     let film = files.film.open(digest::film_header(&scene, &plan))?;
+    for line in used_settings::idle(plan.integrator.name(), &scene.settings, &plan.settings) {
+        message::print(&format!("note: {line}"));
+    }
     warnings.tell_notes(&scene.notes);
     if let Some(file) = scene.settings.file_integrator.as_ref().filter(|_| !arguments.as_file) {
         message::print(&format!("note: the file asks for {}", inventory::file_integrator(file)));
@@ -156,6 +159,7 @@ fn tell(
         },
         rays: outcome.stats.rays,
         photons: outcome.stats.photons,
+        photon_maps: outcome.photons.map(Into::into),
         branches_cut: outcome.stats.branches_cut,
         peak_memory_bytes: memory::peak_bytes(),
         warnings: warnings.into_texts(),

@@ -1,5 +1,6 @@
 //! What a render says of itself when it is done: one line of JSON, or two for people.
 
+use hyaline_transport::photon::maps::{MapStatistics, PhotonStatistics};
 use serde::Serialize;
 
 /// The figures of a render.
@@ -15,6 +16,9 @@ pub(crate) struct Report {
     pub(crate) rays: u64,
     /// Photons emitted by this run.
     pub(crate) photons: u64,
+    /// What the photon stage did; absent for integrators without one.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) photon_maps: Option<PhotonMapsReport>,
     /// Branches that `whitted` cut in this run.
     pub(crate) branches_cut: u64,
     /// Most memory held; absent where the system does not tell.
@@ -37,6 +41,57 @@ pub(crate) struct Seconds {
     pub(crate) render: f64,
 }
 
+/// The photon maps of a render.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub(crate) struct PhotonMapsReport {
+    /// Light over specular surfaces alone.
+    pub(crate) caustic: MapReport,
+    /// The map of the rest, or of all light.
+    pub(crate) global: MapReport,
+}
+
+/// One photon map.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub(crate) struct MapReport {
+    /// Photons emitted for it.
+    pub(crate) emitted: u64,
+    /// Photons kept.
+    pub(crate) stored: u64,
+    /// Memory that it takes.
+    pub(crate) bytes: u64,
+    /// Seconds that tracing took.
+    pub(crate) tracing: f64,
+    /// Seconds that building the tree took.
+    pub(crate) building: f64,
+}
+
+impl From<PhotonStatistics> for PhotonMapsReport {
+    fn from(statistics: PhotonStatistics) -> Self {
+        let map = |map: MapStatistics| MapReport {
+            emitted: map.emitted,
+            stored: map.stored,
+            bytes: map.bytes,
+            tracing: map.tracing.as_secs_f64(),
+            building: map.building.as_secs_f64(),
+        };
+        Self { caustic: map(statistics.caustic), global: map(statistics.global) }
+    }
+}
+
+impl PhotonMapsReport {
+    /// One line for people.
+    fn to_text(self) -> String {
+        let map = |name: &str, map: MapReport| {
+            let MapReport { emitted, stored, bytes, tracing, building } = map;
+            format!(
+                "{name} {stored} of {emitted} ({:.1} MB, traced {tracing:.1} s, built {building:.1} s)",
+                bytes as f64 / 1e6
+            )
+        };
+        format!("photons kept: {}, {}", map("caustic", self.caustic), map("global", self.global))
+    }
+}
+
 impl Report {
     /// The report on one line.
     pub(crate) fn to_json(&self) -> String {
@@ -56,6 +111,9 @@ impl Report {
         if self.branches_cut > 0 {
             text.push_str(&format!(", {} branches cut", self.branches_cut));
         }
+        if let Some(maps) = self.photon_maps {
+            text.push_str(&format!("\n{}", maps.to_text()));
+        }
         text
     }
 }
@@ -72,6 +130,7 @@ mod tests {
             seconds: Seconds { load: 0.1, build: 0.2, prepare: 0.0, render: 1.5 },
             rays: 100,
             photons: 0,
+            photon_maps: None,
             branches_cut: 3,
             peak_memory_bytes: Some(1024),
             warnings: vec!["two\nlines".into()],
@@ -85,5 +144,17 @@ mod tests {
             assert!(value.get(key).is_some(), "{key}");
         }
         assert_eq!(value["seconds"]["render"], 1.5);
+    }
+
+    #[test]
+    fn each_map_has_its_figures() {
+        let map = MapStatistics { emitted: 100, stored: 60, bytes: 1200, ..MapStatistics::default() };
+        let maps = PhotonMapsReport::from(PhotonStatistics { caustic: map, ..PhotonStatistics::default() });
+        let value = serde_json::to_value(maps).unwrap();
+        for key in ["emitted", "stored", "bytes", "tracing", "building"] {
+            assert!(value["caustic"][key].is_number() && value["global"][key].is_number(), "{key}");
+        }
+        assert_eq!(value["caustic"]["stored"], 60);
+        assert!(maps.to_text().contains("caustic 60 of 100"), "{}", maps.to_text());
     }
 }

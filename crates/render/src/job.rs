@@ -2,6 +2,7 @@
 
 use crate::workers::Workers;
 use hyaline_film::{Film, Rect};
+use hyaline_transport::photon::maps::PhotonStatistics;
 use hyaline_transport::{RenderSettings, Stats, View};
 use std::ops::Range;
 use std::sync::atomic::AtomicBool;
@@ -44,6 +45,8 @@ pub struct Outcome {
     pub passes_made: u32,
     /// What this run did and ran into.
     pub stats: Stats,
+    /// What the integrator's photon stage did, where it has one.
+    pub photons: Option<PhotonStatistics>,
     /// How long the integrator prepared.
     pub prepare_time: Duration,
     /// How long passes and checkpoints took.

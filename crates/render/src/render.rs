@@ -42,6 +42,7 @@ pub fn render(
         film: run.film,
         passes_made: run.passes_made,
         stats: run.stats,
+        photons: prepared.photon_statistics(),
         prepare_time: prepared_at.saturating_sub(begun),
         render_time: (job.elapsed)().saturating_sub(prepared_at),
         was_canceled: job.cancel.load(Ordering::SeqCst),

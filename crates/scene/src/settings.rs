@@ -175,7 +175,7 @@ pub enum DebugView {
     Depth,
     /// Texture coordinates.
     Uv,
-    /// A color for each medium that the camera ray is in before the first surface.
+    /// A color for each medium: that behind the first surface where it is a boundary, else that before it.
     Medium,
     /// A color for each object.
     Object,

@@ -9,6 +9,9 @@ use crate::{Result, unit};
 use hyaline_math::DVec3;
 use hyaline_scene::{Located, Rgb, SceneError, Source};
 
+/// Largest float below which every whole number is one: 2^53.
+const LARGEST_WHOLE_FLOAT: f64 = 9_007_199_254_740_992.0;
+
 /// A value with the key it stands under; items of an array keep the array's key.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Field<'a> {
@@ -59,9 +62,14 @@ impl<'a> Field<'a> {
         }
     }
 
-    /// A whole number from `low` to `high`.
+    /// A whole number from `low` to `high`; `2e6` is one, too.
     pub(crate) fn integer(&self, low: i64, high: i64) -> Result<i64> {
-        let Value::Integer(integer) = self.node.value else { return Err(self.wrong_type("a whole number")) };
+        let integer = match self.node.value {
+            Value::Integer(integer) => integer,
+            // TOML takes every number with an exponent for a float; up to 2^53 none is rounded.
+            Value::Float(float) if float.fract() == 0.0 && float.abs() <= LARGEST_WHOLE_FLOAT => float as i64,
+            _ => return Err(self.wrong_type("a whole number")),
+        };
         if (low..=high).contains(&integer) {
             return Ok(integer);
         }

@@ -60,6 +60,8 @@ fn directions_have_a_length() {
 fn whole_numbers_keep_their_range() {
     assert_eq!(with("7", |x| x.count(1)).unwrap(), 7);
     assert!(with("0", |x| x.count(1)).is_err());
-    assert!(with("7.0", |x| x.count(1)).is_err());
+    assert_eq!(with("7e2", |x| x.count(1)).unwrap(), 700);
+    assert!(with("7.5", |x| x.count(1)).is_err());
+    assert!(with("1e40", |x| x.count(1)).is_err());
     assert!(with("4294967296", |x| x.count(1)).is_err());
 }

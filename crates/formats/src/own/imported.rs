@@ -24,7 +24,7 @@ pub(crate) fn override_imported(scene: &mut SceneDescription, overrides: &[(Stri
     overrides::apply(&mut root, overrides)?;
     let mut table = Table::root(&root)?;
     if let Some(field) = table.take("settings") {
-        settings::read(field.table("settings")?, &mut scene.settings)?;
+        settings::read(field.table("settings")?, 1.0, &mut scene.settings)?;
     }
     if let Some(field) = table.take("film") {
         film::read(field.table("film")?, &mut scene.film)?;

@@ -16,6 +16,7 @@ mod material;
 mod medium;
 mod object;
 mod overrides;
+mod photon_map;
 mod references;
 mod relief;
 mod scene;

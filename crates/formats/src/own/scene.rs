@@ -49,7 +49,7 @@ impl<'a> Reader<'a> {
     pub(super) fn read(mut self, root: &Node) -> Result<SceneDescription> {
         let sections = self.header(root)?;
         if let Some(field) = sections.settings {
-            settings::read(field.table("settings")?, &mut self.scene.settings)?;
+            settings::read(field.table("settings")?, self.metres, &mut self.scene.settings)?;
         }
         if let Some(field) = sections.film {
             film::read(field.table("film")?, &mut self.scene.film)?;

@@ -1,12 +1,14 @@
 //! `[settings]`: how to render.
 //!
 //! `integrator` (whitted, path, photon-map, merging, debug), `passes`, `seed`, `sampler` (sobol, independent),
-//! `min_weight`, `max_depth`, `light_samples`. Each has a default that the renderer chooses.
+//! `min_weight`, `max_depth`, `light_samples`, `debug` (what that integrator shows), and the table `photon_map`. Each
+//! has a default that the renderer chooses.
 
+use super::photon_map;
 use super::table::Table;
 use crate::Result;
 use crate::limits::Limits;
-use hyaline_scene::{SamplerKind, Settings};
+use hyaline_scene::{DebugView, SamplerKind, Settings};
 
 const INTEGRATORS: [(&str, &str); 5] = [
     ("whitted", "whitted"),
@@ -16,8 +18,26 @@ const INTEGRATORS: [(&str, &str); 5] = [
     ("debug", "debug"),
 ];
 
-/// Changes `settings` to what the table says.
-pub(super) fn read(mut table: Table<'_>, settings: &mut Settings) -> Result<()> {
+const DEBUG_VIEWS: [(&str, DebugView); 15] = [
+    ("normals", DebugView::Normal),
+    ("geometric-normals", DebugView::GeometricNormal),
+    ("depth", DebugView::Depth),
+    ("uv", DebugView::Uv),
+    ("media", DebugView::Medium),
+    ("objects", DebugView::Object),
+    ("albedo", DebugView::Albedo),
+    ("crossings", DebugView::Crossings),
+    ("photon-power", DebugView::PhotonPower),
+    ("photon-depth", DebugView::PhotonDepth),
+    ("photon-maps", DebugView::PhotonMap),
+    ("irradiance", DebugView::Irradiance),
+    ("caustic-irradiance", DebugView::CausticIrradiance),
+    ("photons-found", DebugView::PhotonsFound),
+    ("photon-radius", DebugView::PhotonRadius),
+];
+
+/// Changes `settings` to what the table says. `metres` is the length of a scene unit.
+pub(super) fn read(mut table: Table<'_>, metres: f64, settings: &mut Settings) -> Result<()> {
     if let Some(name) = table.read_some("integrator", |field| field.choice(&INTEGRATORS))? {
         settings.integrator = Some(name.to_owned());
     }
@@ -37,6 +57,10 @@ pub(super) fn read(mut table: Table<'_>, settings: &mut Settings) -> Result<()> 
     }
     if let Some(samples) = table.read_some("light_samples", |field| field.count(1))? {
         settings.light_samples = Some(samples);
+    }
+    settings.debug = table.read("debug", settings.debug, |field| field.choice(&DEBUG_VIEWS))?;
+    if let Some(field) = table.take("photon_map") {
+        photon_map::read(field.table("settings.photon_map")?, metres, &mut settings.photon_map)?;
     }
     table.finish()
 }

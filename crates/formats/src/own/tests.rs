@@ -64,6 +64,8 @@ fn every_key_is_read() {
     assert_eq!(scene.settings.sampler, SamplerKind::Independent);
     assert_eq!((scene.settings.min_weight, scene.settings.max_depth), (Some(0.01), Some(32)));
     assert_eq!(scene.settings.light_samples, Some(4));
+    assert_eq!(scene.settings.debug, DebugView::Crossings);
+    assert_eq!(scene.settings.photon_map.caustic_photons, 2_000_000, "the other keys: photon_map.rs");
     assert_eq!((scene.film.width, scene.film.height, scene.film.crop), (320, 200, Some([10, 20, 30, 40])));
     assert_eq!(scene.film.filter, PixelFilter::Gaussian { sigma: 0.6, radius: 2.0 });
     assert_eq!(scene.film.exposure, 1.5);

@@ -43,6 +43,21 @@ fn an_existing_film_is_not_overwritten_unless_resumed() {
 }
 
 #[test]
+fn a_film_that_is_not_the_one_resumed_is_not_overwritten() {
+    let workshop = Workshop::new();
+    workshop.succeed("scene.toml --spp 1 --film a.film -o a.png");
+    workshop.succeed("scene.toml --passes 5..6 --film b.film -o a.png");
+    let before = workshop.bytes("b.film");
+    for resumed in ["a.film", "absent.film"] {
+        let run = workshop.run(&format!("scene.toml --spp 2 --resume {resumed} --film b.film -o a.png"));
+        assert_eq!(run.code, Some(2), "{resumed}");
+        assert!(run.first_line().contains("b.film"), "{}", run.stderr);
+    }
+    assert!(workshop.bytes("b.film") == before);
+    workshop.succeed("scene.toml --spp 2 --resume a.film --film ./a.film -o a.png");
+}
+
+#[test]
 fn an_absent_film_to_resume_is_a_fresh_start_with_a_note() {
     let workshop = Workshop::new();
     let run = workshop.succeed("scene.toml --spp 1 --resume a.film -o a.png");

@@ -46,7 +46,7 @@ fn what_is_planned_says_not_yet() {
         "view scene.toml",
         "view scene.toml --port 80",
         "scene.toml --error 1e-3",
-        "scene.toml --integrator debug",
+        "scene.toml --integrator merging",
     ] {
         let run = workshop.run(words);
         assert_eq!(run.code, Some(2), "{words}");
@@ -89,6 +89,15 @@ fn outputs_are_those_asked_for_and_the_word_render_may_stand_first() {
 }
 
 #[test]
+fn the_word_render_may_stand_after_options() {
+    let workshop = Workshop::new();
+    workshop.succeed("-o a.pfm --spp 1 render scene.toml -o b.png");
+    assert_eq!(workshop.names(), ["a.pfm", "b.png", "scene.toml"]);
+    workshop.succeed("--diff d.png compare a.pfm a.pfm");
+    assert_eq!(workshop.names(), ["a.pfm", "b.png", "d.png", "scene.toml"]);
+}
+
+#[test]
 fn the_built_in_scene_needs_no_file() {
     let workshop = Workshop::new();
     let run = workshop.succeed("--spp 1 --size 32x24");
@@ -106,6 +115,24 @@ fn a_setting_of_the_scene_can_be_set() {
 }
 
 #[test]
+fn settings_that_do_nothing_with_the_integrator_are_told() {
+    let workshop = Workshop::new();
+    let run = workshop.succeed("scene.toml --spp 1 -o a.png --set settings.photon_map.caustic_photons=2e6");
+    assert!(run.stderr.contains("note: settings.photon_map does nothing here"), "{}", run.stderr);
+    let run = workshop.succeed("scene.toml --spp 1 -o a.png");
+    assert!(!run.stderr.contains("note:"), "{}", run.stderr);
+}
+
+#[test]
+fn a_debug_view_is_chosen_by_its_word() {
+    let workshop = Workshop::new();
+    workshop.succeed("scene.toml --spp 1 --integrator debug --set settings.debug=depth -o a.pfm");
+    let (width, height, depths) = read_pfm(&workshop.path("a.pfm"));
+    let [ball, ..] = depths[height / 2 * width + width / 2];
+    assert!((1.5..2.0).contains(&ball), "the ball is {ball} from the camera");
+}
+
+#[test]
 fn the_report_has_the_agreed_keys_on_the_last_line() {
     let run = Workshop::new().succeed("scene.toml --spp 2 --json -o a.png");
     let report = run.json();
@@ -119,6 +146,25 @@ fn the_report_has_the_agreed_keys_on_the_last_line() {
     assert!(report["warnings"].is_array());
     #[cfg(target_os = "linux")]
     assert!(report["peak_memory_bytes"].as_u64().is_some_and(|bytes| bytes > 1 << 20));
+}
+
+#[test]
+fn the_report_tells_what_each_photon_map_took() {
+    let workshop = Workshop::new();
+    let photons =
+        "--set settings.photon_map.caustic_photons=3000 --set settings.photon_map.global_photons=2e3";
+    let words = format!("scene.toml --spp 1 --integrator photon-map {photons} --json -o a.png");
+    let run = workshop.succeed(&words);
+    let maps = &run.json()["photon_maps"];
+    assert_eq!(maps["caustic"]["emitted"], 3000);
+    assert_eq!(maps["global"]["emitted"], 2000);
+    for map in ["caustic", "global"] {
+        assert!(maps[map]["stored"].as_u64().is_some_and(|stored| stored > 0), "{map}");
+        assert!(maps[map]["bytes"].as_u64().is_some_and(|bytes| bytes > 0), "{map}");
+    }
+    assert!(run.stderr.contains("photons kept: caustic "), "{}", run.stderr);
+    let run = workshop.succeed("scene.toml --spp 1 --json -o a.png");
+    assert!(run.json().get("photon_maps").is_none());
 }
 
 #[test]

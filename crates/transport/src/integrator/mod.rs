@@ -1,10 +1,12 @@
 //! What an integrator is: something that prepares, and then renders numbered passes that know nothing of each other.
 
+pub mod debug;
 mod path;
 mod per_pixel;
 mod photon_map;
 mod whitted;
 
+pub use debug::DebugIntegrator;
 pub use path::{PathIntegrator, radiance};
 pub use photon_map::PhotonMapIntegrator;
 pub use whitted::WhittedIntegrator;
@@ -98,7 +100,7 @@ pub trait Pass: Send + Sync {
 }
 
 /// Names of the integrators there are, the default first.
-pub const NAMES: [&str; 3] = ["path", "photon-map", "whitted"];
+pub const NAMES: [&str; 4] = ["path", "photon-map", "whitted", "debug"];
 
 /// The integrator of that name.
 pub fn by_name(name: &str) -> Option<Box<dyn Integrator>> {
@@ -106,6 +108,7 @@ pub fn by_name(name: &str) -> Option<Box<dyn Integrator>> {
         "path" => Some(Box::new(PathIntegrator)),
         "photon-map" => Some(Box::new(PhotonMapIntegrator)),
         "whitted" => Some(Box::new(WhittedIntegrator)),
+        "debug" => Some(Box::new(DebugIntegrator)),
         _ => None,
     }
 }
