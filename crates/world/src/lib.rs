@@ -2,6 +2,7 @@
 
 pub mod camera;
 pub mod compile;
+pub mod health;
 pub mod light;
 pub mod material;
 mod meeting;

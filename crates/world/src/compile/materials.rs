@@ -1,5 +1,6 @@
 //! Materials: texture names become indices, metals become indices of refraction.
 
+use super::faults::Faults;
 use super::names::nearest;
 use super::{Library, lanes};
 use crate::material::{ColorInput, Finish, Material, ScalarInput};
@@ -10,12 +11,12 @@ use hyaline_spectrum::catalogue;
 
 const MORE_LIGHT: &str = "a surface can't give more light than it gets: keep it within 0…1";
 
-/// Compiles all materials, in order.
-///
-/// # Errors
-/// A texture or metal that is not there, a reflectance outside 0…1.
-pub(super) fn compile_all(library: &Library) -> Result<Vec<Material>, SceneError> {
-    library.description.materials.iter().map(|material| compile(library, material)).collect()
+/// Compiles all materials, in order; one that has a fault (a texture or metal that is not there, a reflectance outside
+/// 0…1) is black, so that the others keep their places.
+pub(super) fn compile_all(library: &Library, faults: &mut Faults) -> Vec<Material> {
+    let stand_in = Material { finish: Finish::Black, two_sided: true };
+    let materials = library.description.materials.iter();
+    materials.map(|m| faults.keep(compile(library, m)).unwrap_or(stand_in.clone())).collect()
 }
 
 fn compile(library: &Library, description: &Located<MaterialDescription>) -> Result<Material, SceneError> {

@@ -72,8 +72,30 @@ impl Mesh {
             back_to_back_faces,
             volume: self.signed_volume(),
             openness: self.openness(),
-            contrary_normals: contrary_normals(self),
+            contrary_normals: self.contrary_normals(),
         }
+    }
+
+    /// The ends of every edge that has one face only.
+    pub fn open_edges(&self) -> Vec<[Vec3; 2]> {
+        let (uses, _) = edge_uses(self);
+        let alone = uses.chunk_by(|a, b| a.edge() == b.edge()).filter(|edge| edge.len() == 1);
+        alone.map(|edge| [edge[0].low, edge[0].high].map(|i| self.positions()[i as usize])).collect()
+    }
+
+    /// Share of corners whose vertex normal is more than 90 degrees off the face's, 0…1; absent normals don't count.
+    pub fn contrary_normals(&self) -> f64 {
+        let Some(normals) = self.normals() else { return 0.0 };
+        let (mut contrary, mut count) = (0_usize, 0_usize);
+        for (face, corners) in self.triangles().iter().enumerate() {
+            let face_normal = self.doubled_area(face as u32);
+            for &vertex in corners {
+                let cosine = normals[vertex as usize].as_dvec3().dot(face_normal);
+                count += usize::from(cosine != 0.0 && cosine.is_finite());
+                contrary += usize::from(cosine < 0.0 && cosine.is_finite());
+            }
+        }
+        contrary as f64 / count.max(1) as f64
     }
 }
 
@@ -99,19 +121,4 @@ fn repeated_faces(mesh: &Mesh) -> (Marked, Marked) {
         (1..alike.len() - pairs).for_each(|_| duplicate.mark(place));
     }
     (duplicate, opposite)
-}
-
-/// Share of corners whose vertex normal is more than 90 degrees off the face's; absent normals don't count.
-fn contrary_normals(mesh: &Mesh) -> f64 {
-    let Some(normals) = mesh.normals() else { return 0.0 };
-    let (mut contrary, mut count) = (0_usize, 0_usize);
-    for (face, corners) in mesh.triangles().iter().enumerate() {
-        let face_normal = mesh.doubled_area(face as u32);
-        for &vertex in corners {
-            let cosine = normals[vertex as usize].as_dvec3().dot(face_normal);
-            count += usize::from(cosine != 0.0 && cosine.is_finite());
-            contrary += usize::from(cosine < 0.0 && cosine.is_finite());
-        }
-    }
-    contrary as f64 / count.max(1) as f64
 }
