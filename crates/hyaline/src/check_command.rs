@@ -29,7 +29,9 @@ pub(crate) fn run(arguments: &CheckArguments) -> Result<u8, Failure> {
 /// Prints faults in the order of the file, all but the last, which is returned.
 fn all_but_last(mut faults: Vec<SceneError>) -> Failure {
     // The sort is stable: faults without a place stay in the order in which they were found.
-    faults.sort_by_key(|fault| fault.source.as_ref().map(|place| (place.file.clone(), place.line, place.column)));
+    faults.sort_by_key(|fault| {
+        fault.source.as_ref().map(|place| (place.file.clone(), place.line, place.column))
+    });
     let last = faults.pop().unwrap_or_else(|| SceneError::general("the scene can't be used"));
     faults.into_iter().for_each(|fault| Failure::from(fault).print());
     Failure::from(last)

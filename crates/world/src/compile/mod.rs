@@ -22,6 +22,8 @@ mod shapes;
 use crate::World;
 use crate::light::LightSet;
 use crate::texture::Texture;
+pub(crate) use shapes::is_open;
+
 use faults::Faults;
 use hyaline_geometry::Aggregate;
 use hyaline_scattering::{Boundaries, Medium, MediumId};

@@ -270,7 +270,7 @@ fn primitives(shape: &ShapeDescription) -> Result<Vec<Primitive>, ShapeError> {
 }
 
 /// Whether a shape that is no mesh surely has no inside.
-pub(super) fn is_open(shape: &ShapeDescription) -> bool {
+pub(crate) fn is_open(shape: &ShapeDescription) -> bool {
     let is_part = |range: &[f64; 2], whole: f64| range[1] - range[0] < whole * (1.0 - 1e-9);
     match shape {
         ShapeDescription::Disc { .. } | ShapeDescription::Rectangle { .. } => true,
