@@ -1,4 +1,15 @@
 //! Do two noisy pictures show the same? A z-test on the means of tiles.
+//!
+//! 1. The mean of each tile and channel, and the variance of that mean, for the picture and for the reference.
+//! 2. Each variance is raised to what the tiles about it have in proportion to their light, if that is more. A tile
+//!    that happens to have seen none of the rare bright samples has too low a mean and far too low a variance: by its
+//!    own account it is sure of a wrong value. Its neighbors have seen some. Light that arrives as rare samples of
+//!    strength L has a variance of L times its mean, so variance over mean is what carries over.
+//! 3. The difference over its standard deviation against the normal distribution, each test at the level that makes
+//!    1 % for all together.
+//!
+//! Raising variances can only make the test miss something, never find something that is not there. What it misses
+//! are differences below the noise that the neighborhood shows.
 
 use crate::compare::{SizeMismatch, check_sizes, finite_colors};
 use crate::image::Image;
@@ -24,6 +35,8 @@ pub struct TileTest {
     pub passes: bool,
     /// Number of tiles.
     pub tile_count: usize,
+    /// How many tests would fail by the tiles' own variances, not raised to their neighbors'.
+    pub failures_by_own_variance: usize,
     /// The tiles and channels that don't.
     pub failures: Vec<TileFailure>,
 }
@@ -48,8 +61,7 @@ pub struct TileFailure {
 /// - `image_variance`, `reference_variance`: variance of the mean radiance of each pixel and channel.
 /// - `tile_size`: side of a tile, pixels, ≥ 1; tiles at the right and lower border may be smaller.
 ///
-/// The difference of two means of a tile, over its standard deviation, is compared with the normal distribution; the
-/// level of each test makes 1 % for all together. Needs so many samples per tile that their mean is normal.
+/// Needs so many samples per tile that their mean is normal.
 ///
 /// # Errors
 /// If any two of the pictures differ in size.
@@ -65,32 +77,94 @@ pub fn tile_test(
     check_sizes(image, image_variance)?;
     check_sizes(reference, reference_variance)?;
     let [width, height] = check_sizes(image, reference)?;
-    let colors = [image, image_variance, reference, reference_variance].map(|image| finite_colors(image).0);
-    let tiles = tiles(width, height, tile_size.max(1));
+    let size = tile_size.max(1);
+    let tiles = tiles(width, height, size);
+    let columns = width.div_ceil(size) as usize;
+    let [image, reference] = [(image, image_variance), (reference, reference_variance)]
+        .map(|(image, variance)| Moments::of_tiles(image, variance, &tiles, width as usize));
+    let (pooled_image, pooled_reference) = (pooled(&image, columns), pooled(&reference, columns));
     let threshold = sidak(3 * tiles.len());
-    let (mut worst_p, mut failures) = (1.0_f64, Vec::new());
-    for &tile in &tiles {
+    let (mut worst_p, mut failures, mut failures_by_own_variance) = (1.0_f64, Vec::new(), 0);
+    for (index, &tile) in tiles.iter().enumerate() {
         for channel in 0..3 {
-            let result = test_tile(&colors, width as usize, tile, channel);
-            worst_p = worst_p.min(result.p);
-            failures.extend((result.p < threshold).then_some(result));
+            let (a, b) = (&image[index][channel], &reference[index][channel]);
+            // Both should have the light of the brighter one.
+            let light = a.mean.max(b.mean).max(0.0) / a.count;
+            let variances = [
+                a.variance.max(pooled_image[index][channel] * light),
+                b.variance.max(pooled_reference[index][channel] * light),
+            ];
+            let p = p_value(a.mean, b.mean, variances[0] + variances[1]);
+            worst_p = worst_p.min(p);
+            if p < threshold {
+                failures.push(TileFailure { tile, channel, mean: a.mean, reference_mean: b.mean, p });
+            }
+            failures_by_own_variance +=
+                usize::from(p_value(a.mean, b.mean, a.variance + b.variance) < threshold);
         }
     }
-    Ok(TileTest { worst_p, threshold, passes: failures.is_empty(), tile_count: tiles.len(), failures })
+    Ok(TileTest {
+        worst_p,
+        threshold,
+        passes: failures.is_empty(),
+        tile_count: tiles.len(),
+        failures_by_own_variance,
+        failures,
+    })
 }
 
-/// The z-test of one channel of one tile. `colors`: picture, its variance, reference, its variance.
-fn test_tile(colors: &[Vec<[f64; 3]>; 4], width: usize, tile: Rect, channel: usize) -> TileFailure {
-    let count = tile.area() as f64;
-    let [sum, variance, reference_sum, reference_variance] = [0, 1, 2, 3].map(|i| {
-        tile.pixels().map(|(x, y)| colors[i][y as usize * width + x as usize][channel]).sum::<f64>()
-    });
-    let (mean, reference_mean) = (sum / count, reference_sum / count);
+/// The light of one channel of a tile.
+#[derive(Clone, Copy, Debug)]
+struct Moments {
+    /// Number of pixels.
+    count: f64,
+    mean: f64,
+    /// Variance of the mean.
+    variance: f64,
+}
+
+impl Moments {
+    /// Of all tiles and channels.
+    fn of_tiles(image: &Image, variance: &Image, tiles: &[Rect], width: usize) -> Vec<[Self; 3]> {
+        let (colors, variances) = (finite_colors(image).0, finite_colors(variance).0);
+        let moments = |tile: &Rect, channel: usize| {
+            let count = tile.area() as f64;
+            let sum = |values: &[[f64; 3]]| {
+                tile.pixels().map(|(x, y)| values[y as usize * width + x as usize][channel]).sum::<f64>()
+            };
+            Self { count, mean: sum(&colors) / count, variance: sum(&variances) / (count * count) }
+        };
+        tiles.iter().map(|tile| [0, 1, 2].map(|channel| moments(tile, channel))).collect()
+    }
+}
+
+/// For each tile and channel the variance of a pixel's mean over that mean, of the tile and those about it together.
+fn pooled(moments: &[[Moments; 3]], columns: usize) -> Vec<[f64; 3]> {
+    let rows = moments.len() / columns.max(1);
+    let relation = |index: usize, channel: usize| {
+        let (row, column) = (index / columns, index % columns);
+        let (mut variance, mut light) = (0.0, 0.0);
+        for y in row.saturating_sub(1)..(row + 2).min(rows) {
+            for x in column.saturating_sub(1)..(column + 2).min(columns) {
+                let tile = &moments[y * columns + x][channel];
+                variance += tile.variance * tile.count * tile.count;
+                light += tile.mean.max(0.0) * tile.count;
+            }
+        }
+        if light > 0.0 { variance / light } else { 0.0 }
+    };
+    (0..moments.len()).map(|index| [0, 1, 2].map(|channel| relation(index, channel))).collect()
+}
+
+/// Chance of a difference at least this large between right means whose difference has this variance.
+fn p_value(mean: f64, reference_mean: f64, variance: f64) -> f64 {
     let rounding = ROUNDING * mean.abs().max(reference_mean.abs());
-    let variance = (variance + reference_variance) / (count * count) + rounding * rounding;
     let difference = (mean - reference_mean).abs();
-    let p = if difference == 0.0 { 1.0 } else { libm::erfc(difference / (2.0 * variance).sqrt()) };
-    TileFailure { tile, channel, mean, reference_mean, p }
+    if difference == 0.0 {
+        1.0
+    } else {
+        libm::erfc(difference / (2.0 * (variance + rounding * rounding)).sqrt())
+    }
 }
 
 /// Tiles that cover the picture, row by row.
@@ -155,6 +229,62 @@ mod tests {
         assert_eq!(result.failures.len(), 1);
         let failure = result.failures[0];
         assert_eq!((failure.tile, failure.channel), (Rect { x0: 12, y0: 12, x1: 24, y1: 24 }, 1));
+    }
+
+    /// A picture of 60 × 60 pixels that is even but for rare samples of strength `bright`, `rate` of them a tile on
+    /// average, as a renderer of `samples` samples per pixel would see it; and the variance that it would estimate.
+    fn with_rare_samples(random: &mut Random, samples: f64, bright: f64, rate: f64) -> (Image, Image) {
+        let (mut colors, mut variances) = (Vec::new(), Vec::new());
+        for _ in 0..60 * 60 {
+            // At most one such sample a pixel, which is nearly so where they are rare.
+            let seen = f64::from(u8::from(random.uniform() < rate / 144.0));
+            let base =
+                0.5 + 0.1 / samples.sqrt() * (random.uniform() + random.uniform() - 1.0) * 6.0_f64.sqrt();
+            colors.push([(base + seen * bright / samples) as f32; 3]);
+            variances.push([(0.01 / samples + seen * (bright / samples).powi(2)) as f32; 3]);
+        }
+        (Image::new(60, 60, colors), Image::new(60, 60, variances))
+    }
+
+    /// The reference of such pictures.
+    fn without_noise(samples: f64, bright: f64, rate: f64) -> (Image, Image) {
+        let mean = 0.5 + rate / 144.0 * bright / samples;
+        (Image::new(60, 60, vec![[mean as f32; 3]; 3600]), Image::new(60, 60, vec![[1e-12; 3]; 3600]))
+    }
+
+    #[test]
+    fn tiles_that_missed_the_rare_samples_do_not_fail_for_it() {
+        let mut random = Random::from_seed(5);
+        let (mut failed, mut failed_by_own) = (0, 0);
+        for _ in 0..100 {
+            // One rare sample a tile brings 2 % of its light, so a tile without one is 2 % too dark.
+            let (samples, bright, rate) = (256.0, 368.0, 1.0);
+            let (a, a_variance) = with_rare_samples(&mut random, samples, bright, rate);
+            let (b, b_variance) = without_noise(samples, bright, rate);
+            let result = tile_test(&a, &a_variance, &b, &b_variance, 12).expect("same size");
+            failed += usize::from(!result.passes);
+            failed_by_own += usize::from(result.failures_by_own_variance > 0);
+        }
+        assert_eq!(failed_by_own, 100);
+        assert!(failed <= 10, "{failed} of 100 right pictures failed");
+    }
+
+    #[test]
+    fn a_tile_that_is_two_percent_off_is_found_at_the_length_that_the_test_is_meant_for() {
+        let mut random = Random::from_seed(6);
+        // A tile's own standard error of 0.3 %, four times that of this picture's mean.
+        for off in [0.98, 1.03] {
+            let found = (0..50).filter(|_| {
+                let sigma = 0.5 * 0.003 * 12.0;
+                let (mut a, a_variance) = noisy(&mut random, 0.5, sigma);
+                let (b, b_variance) = noisy(&mut random, 0.5, 0.2 * sigma);
+                for (x, y) in (Rect { x0: 12, y0: 12, x1: 24, y1: 24 }).pixels() {
+                    a.rgb[(y * 50 + x) as usize].iter_mut().for_each(|value| *value *= off);
+                }
+                !tile_test(&a, &a_variance, &b, &b_variance, 12).expect("same size").passes
+            });
+            assert_eq!(found.count(), 50, "{off}");
+        }
     }
 
     #[test]

@@ -34,8 +34,11 @@ use std::sync::Arc;
 
 type Result<T> = std::result::Result<T, SceneError>;
 
+/// A scene, or everything that is wrong with it: at least one fault.
+type ResultOrAllFaults = std::result::Result<SceneDescription, Vec<SceneError>>;
+
 /// Reads a scene from its text, the file's name, the folder of its files, and overrides.
-type TextReader = fn(&str, &str, &Path, &[(String, String)]) -> Result<SceneDescription>;
+type TextReader = fn(&str, &Arc<str>, &Path, &[(String, String)]) -> ResultOrAllFaults;
 
 /// Reads a scene file; its ending (`.toml`, `.xml`) tells the format.
 ///
@@ -48,22 +51,34 @@ pub fn load(
     path: &Path,
     overrides: &[(String, String)],
 ) -> std::result::Result<SceneDescription, SceneError> {
+    load_or_all_faults(path, overrides).map_err(first)
+}
+
+/// Reads a scene file as [`load`] does, and tells everything that is wrong with it.
+///
+/// # Errors
+/// All faults, at least one. In TOML that is the first of each section, object, light and so on; other formats and
+/// files that are no TOML end at the first.
+pub fn load_or_all_faults(path: &Path, overrides: &[(String, String)]) -> ResultOrAllFaults {
+    let one = |fault: SceneError| vec![fault];
     let file: Arc<str> = Arc::from(path.display().to_string());
     let source = Source::file(file.clone());
     let read: TextReader = match ending(path).as_str() {
-        "toml" => load_toml_text,
-        "xml" => load_mitsuba_text,
+        "toml" => own::read,
+        "xml" => |text, file, base_dir, overrides| {
+            mitsuba::read(text, file, base_dir, overrides).map_err(|fault| vec![fault])
+        },
         "gltf" | "glb" | "pbrt" => {
             let message = format!("scenes ending in .{} can't be read yet", ending(path));
-            return Err(SceneError::at(&source, message).with_remedy("give a .toml or .xml scene"));
+            return Err(one(SceneError::at(&source, message).with_remedy("give a .toml or .xml scene")));
         }
         _ => {
             let error = SceneError::at(&source, "the ending of the file's name tells no scene format");
-            return Err(error.with_remedy("the formats are .toml (hyaline) and .xml (Mitsuba 3)"));
+            return Err(one(error.with_remedy("the formats are .toml (hyaline) and .xml (Mitsuba 3)")));
         }
     };
-    let bytes = assets::read_file(&source, &file, path)?;
-    let text = String::from_utf8(bytes).map_err(|error| not_text(&file, error.as_bytes()))?;
+    let bytes = assets::read_file(&source, &file, path).map_err(one)?;
+    let text = String::from_utf8(bytes).map_err(|error| one(not_text(&file, error.as_bytes())))?;
     let base_dir = path.parent().unwrap_or(Path::new(""));
     read(text.strip_prefix('\u{feff}').unwrap_or(&text), &file, base_dir, overrides)
 }
@@ -82,7 +97,7 @@ pub fn load_toml_text(
     base_dir: &Path,
     overrides: &[(String, String)],
 ) -> std::result::Result<SceneDescription, SceneError> {
-    own::read(text, &Arc::from(file_name), base_dir, overrides)
+    own::read(text, &Arc::from(file_name), base_dir, overrides).map_err(first)
 }
 
 /// Reads a Mitsuba scene (version 3, and the older names of 0.5 and 0.6) from its text.
@@ -133,6 +148,11 @@ pub fn load_image(path: &Path) -> std::result::Result<ImageData, SceneError> {
 /// As for [`load_image`].
 pub fn image_from_bytes(bytes: &[u8], file_name: &str) -> std::result::Result<ImageData, SceneError> {
     image::read(Path::new(file_name), bytes, None)
+}
+
+/// The fault to tell where only one is told.
+fn first(faults: Vec<SceneError>) -> SceneError {
+    faults.into_iter().next().unwrap_or_else(|| SceneError::general("the scene can't be read"))
 }
 
 /// The ending of a file's name, in lower case, without the dot.

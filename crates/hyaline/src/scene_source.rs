@@ -1,7 +1,7 @@
 //! Where a scene comes from: a file, or the glass of water that is built in.
 
 use crate::failure::Failure;
-use hyaline_scene::SceneDescription;
+use hyaline_scene::{SceneDescription, SceneError};
 use std::path::{Path, PathBuf};
 
 /// Name of the built-in scene in messages.
@@ -22,6 +22,17 @@ pub(crate) fn load(
         None => hyaline_formats::load_toml_text(BUILT_IN_TEXT, BUILT_IN_NAME, Path::new("."), overrides)?,
     };
     Ok(description)
+}
+
+/// Reads a scene file as `load` does, but tells everything that is wrong with it.
+///
+/// # Errors
+/// All faults, at least one.
+pub(crate) fn load_or_all_faults(
+    scene: &Path,
+    overrides: &[(String, String)],
+) -> Result<SceneDescription, Vec<SceneError>> {
+    hyaline_formats::load_or_all_faults(scene, overrides)
 }
 
 /// Text of a scene file by the name that messages use; `None` where it can't be read as text.

@@ -36,13 +36,23 @@ fn means(world: &World, integrator: &str, photon_map: PhotonMapSettings, passes:
 
 fn few_photons() -> PhotonMapSettings {
     let nearest = NearestPhotons { caustic: 20, global: 30, volume: 20 };
-    PhotonMapSettings { caustic_photons: 10_000, global_photons: 10_000, nearest, ..PhotonMapSettings::default() }
+    PhotonMapSettings {
+        caustic_photons: 10_000,
+        global_photons: 10_000,
+        nearest,
+        ..PhotonMapSettings::default()
+    }
 }
 
 /// Fails unless the means agree, and are known to `power`.
 fn assert_same(a: &Moments, b: &Moments, power: f64, what: &str) {
     let error = (a.variance_of_mean() + b.variance_of_mean()).sqrt();
-    println!("{what}: {} and {} ± {error}, {:+.2} %", a.mean(), b.mean(), 100.0 * (a.mean() / b.mean() - 1.0));
+    println!(
+        "{what}: {} and {} ± {error}, {:+.2} %",
+        a.mean(),
+        b.mean(),
+        100.0 * (a.mean() / b.mean() - 1.0)
+    );
     assert!(error < power * b.mean(), "{what}: an error of {error} in {} shows nothing", b.mean());
     let chance =
         welch_t(a.mean(), a.variance_of_mean(), a.count(), b.mean(), b.variance_of_mean(), b.count());
@@ -138,7 +148,10 @@ fn finishes_between_polished_and_matte_lose_no_light() {
     for roughness in [0.3, 0.6] {
         let mut kit = hollow(lamp_ball);
         let white = || ColorSource::Constant([1.0; 3]);
-        let rough = MaterialKind::Dielectric { roughness: ScalarSource::Constant(roughness), tint: (white(), white()) };
+        let rough = MaterialKind::Dielectric {
+            roughness: ScalarSource::Constant(roughness),
+            tint: (white(), white()),
+        };
         kit.material("rough", rough);
         kit.object(
             "frosted",

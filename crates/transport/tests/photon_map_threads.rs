@@ -37,8 +37,9 @@ fn a_picture_is_the_same_for_any_number_of_threads() {
         .map(|threads| {
             let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
             let mut pixels = Vec::new();
-            let stats = pool
-                .install(|| shot.render(shot.full_frame(), 0..2, |_, samples| pixels.extend_from_slice(samples)));
+            let stats = pool.install(|| {
+                shot.render(shot.full_frame(), 0..2, |_, samples| pixels.extend_from_slice(samples))
+            });
             (pixels, stats)
         })
         .collect();

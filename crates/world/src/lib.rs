@@ -3,6 +3,7 @@
 pub mod camera;
 pub mod compile;
 mod face;
+pub mod health;
 pub mod light;
 pub mod material;
 mod meeting;

@@ -23,7 +23,9 @@ impl Finish {
                 ColorInput::Constant(diffuse) => diffuse.is_zero(),
                 ColorInput::Texture(_) => true,
             },
-            Finish::Conductor { roughness, .. } | Finish::Dielectric { roughness, .. } => is_narrow(roughness),
+            Finish::Conductor { roughness, .. } | Finish::Dielectric { roughness, .. } => {
+                is_narrow(roughness)
+            }
             Finish::Plastic { roughness, .. } => !matches!(roughness, ScalarInput::Constant(r) if *r > 0.0),
             Finish::PerfectSpecular { .. }
             | Finish::GlossySpecular { .. }

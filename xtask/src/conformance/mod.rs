@@ -1,30 +1,41 @@
 //! Renders folders of scenes and measures how far they are from independently made references.
 //!
-//! A folder counts when it holds `scene.xml` or `scene.toml`, `reference.exr` (radiance) and `reference-variance.exr`
-//! (the variance of that mean). Each is rendered with the release binary, by default with independent samples, as the
-//! tile test needs them.
+//! Each scene below the folder is rendered with the release binary, by default with independent samples, as the tile
+//! test needs them. Scenes without a reference are rendered and listed all the same; one that fails is a row with its
+//! error.
 
-mod scene;
+mod folder;
+mod measure;
 mod table;
 mod tiles;
 
 use crate::workspace;
 use clap::Args;
-use scene::{Measured, SceneFolder};
+use measure::{Length, Renderer};
 use std::path::{Path, PathBuf};
 use std::process::Command;
+use table::Row;
+
+/// Samples per pixel where nothing is said.
+const DEFAULT_SPP: u32 = 64;
 
 /// Options of conformance.
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
-    /// Folder with one folder for each scene
+    /// Folder with scenes, at any depth
     folder: PathBuf,
-    /// Samples per pixel
+    /// Samples per pixel [default: 64]
     #[arg(long, value_name = "N", conflicts_with = "time")]
     spp: Option<u32>,
     /// Time for each scene, as the command's
     #[arg(long, value_name = "TIME")]
     time: Option<String>,
+    /// Go on until the standard error of the picture's mean is below 0.3 %, as the tile test wants
+    #[arg(long, conflicts_with = "time")]
+    until_settled: bool,
+    /// Samples per pixel at which --until-settled gives up
+    #[arg(long, value_name = "N", default_value_t = 16384)]
+    most_spp: u32,
     /// Integrator; the command's default where absent
     #[arg(long, value_name = "NAME")]
     integrator: Option<String>,
@@ -37,6 +48,9 @@ pub(crate) struct Arguments {
     /// No scene whose name contains this; may be repeated
     #[arg(long, value_name = "TEXT")]
     skip: Vec<String>,
+    /// Folder for the table, pictures and films [default: target/conformance]
+    #[arg(long, value_name = "FOLDER")]
+    out: Option<PathBuf>,
     /// Fail where a tile test fails
     #[arg(long)]
     strict: bool,
@@ -46,14 +60,29 @@ impl Arguments {
     /// Words for the command that say how to render.
     fn words(&self) -> Vec<String> {
         let mut words = vec!["--set".to_owned(), format!("settings.sampler={}", self.sampler)];
-        match (&self.time, self.spp) {
-            (Some(time), _) => words.extend(["--time".to_owned(), time.clone()]),
-            (None, spp) => words.extend(["--spp".to_owned(), spp.unwrap_or(64).to_string()]),
-        }
         if let Some(integrator) = &self.integrator {
             words.extend(["--integrator".to_owned(), integrator.clone()]);
         }
         words
+    }
+
+    fn length(&self) -> Length {
+        let spp = self.spp.unwrap_or(DEFAULT_SPP);
+        match &self.time {
+            Some(time) => Length::Time(time.clone()),
+            None if self.until_settled => Length::Settled { first: spp, most: self.most_spp },
+            None => Length::Samples(spp),
+        }
+    }
+
+    /// The way of rendering in words, for the head of the table.
+    fn summary(&self) -> String {
+        let length = match self.length() {
+            Length::Samples(spp) => format!("--spp {spp}"),
+            Length::Time(time) => format!("--time {time}"),
+            Length::Settled { most, .. } => format!("until settled, at most {most} spp"),
+        };
+        format!("{} {length}", self.words().join(" "))
     }
 
     fn wants(&self, name: &str) -> bool {
@@ -63,35 +92,36 @@ impl Arguments {
     }
 }
 
-/// Renders and measures every scene; prints a table and writes it to `target/conformance.md` and `.json`.
+/// Renders and measures every scene; prints a table and writes it as `conformance.md` and `conformance.json`.
 ///
 /// # Errors
-/// There is no scene, one can't be rendered or measured, or, if asked for, a tile test fails.
+/// There is no scene, one can't be rendered or measured (after all others were), or, if asked for, a tile test fails.
 pub(crate) fn run(arguments: &Arguments) -> Result<(), String> {
     let root = workspace::root();
     let folder =
         arguments.folder.canonicalize().map_err(|e| format!("{}: {e}", arguments.folder.display()))?;
-    let scenes: Vec<SceneFolder> =
-        scene::find(&folder)?.into_iter().filter(|scene| arguments.wants(&scene.name)).collect();
+    let mut scenes = folder::find(&folder)?;
+    scenes.retain(|scene| arguments.wants(&scene.name));
     if scenes.is_empty() {
-        return Err(format!("{}: no folder with a scene and its reference", folder.display()));
+        return Err(format!("{}: no scene (.xml, .toml) in it or below", folder.display()));
     }
     let binary = build(&root)?;
-    let output = root.join("target/conformance");
+    let output = arguments.out.clone().unwrap_or_else(|| root.join("target/conformance"));
     std::fs::create_dir_all(&output).map_err(|e| format!("{}: {e}", output.display()))?;
 
-    let words = arguments.words();
-    let mut results = Vec::new();
+    let renderer =
+        Renderer { binary: &binary, output: &output, words: arguments.words(), length: arguments.length() };
+    let mut rows: Vec<Row> = Vec::new();
     for scene in scenes {
         eprintln!("conformance: {}", scene.name);
-        let result = scene.measure(&binary, &output, &words);
-        results.push((scene.name, result));
+        let result = renderer.measure(&scene);
+        rows.push((scene.name, result));
     }
-    let text = table::markdown(&words, &results);
+    let text = table::markdown(&arguments.summary(), &rows);
     print!("{text}");
-    write(&root.join("target/conformance.md"), &text)?;
-    write(&root.join("target/conformance.json"), &table::json(&words, &results))?;
-    verdict(arguments.strict, &results)
+    write(&output.join("conformance.md"), &text)?;
+    write(&output.join("conformance.json"), &table::json(&arguments.summary(), &rows))?;
+    verdict(arguments.strict, &rows)
 }
 
 /// Builds the release binary; returns its path.
@@ -115,12 +145,11 @@ fn write(path: &Path, text: &str) -> Result<(), String> {
 }
 
 /// Fails where a scene could not be measured, or where `strict` and a tile test failed.
-fn verdict(strict: bool, results: &[(String, Result<Measured, String>)]) -> Result<(), String> {
-    let is_bad = |result: &Result<Measured, String>| match result {
-        Ok(measured) => strict && !measured.tiles.passes,
+fn verdict(strict: bool, rows: &[Row]) -> Result<(), String> {
+    let is_bad = |row: &&Row| match &row.1 {
+        Ok(measured) => strict && measured.tiles.as_ref().is_some_and(|tiles| !tiles.passes),
         Err(_) => true,
     };
-    let bad: Vec<&str> =
-        results.iter().filter(|(_, result)| is_bad(result)).map(|(name, _)| name.as_str()).collect();
+    let bad: Vec<&str> = rows.iter().filter(is_bad).map(|(name, _)| name.as_str()).collect();
     if bad.is_empty() { Ok(()) } else { Err(format!("failed: {}", bad.join(", "))) }
 }

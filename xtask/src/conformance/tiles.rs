@@ -1,11 +1,52 @@
-//! The tile test of one render: do the means of its tiles agree with the reference's?
+//! The tile test of one render, and whether the render was long enough for it.
 
 use hyaline_film::{Film, Image, TileFailure, develop, read_image, tile_test, variance_of_mean};
 use std::collections::BTreeSet;
 use std::path::Path;
 
-/// Standard error of the picture's mean, relative to it, from which on the test is meant.
+/// Standard error of the picture's mean, relative to it, below which the test is meant.
 const LONG_ENOUGH: f64 = 0.003;
+
+/// The mean of a picture over pixels and channels, and how well it is known.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Noise {
+    /// The mean.
+    pub(crate) mean: f64,
+    /// Its standard error, relative to the mean; infinite where it isn't known.
+    pub(crate) relative_error: f64,
+}
+
+impl Noise {
+    /// - `variance`: of the mean of each pixel; `None` where there was one pass only.
+    pub(crate) fn new(image: &Image, variance: Option<&Image>) -> Self {
+        let values = |image: &Image| image.rgb.as_flattened().iter().map(|v| f64::from(*v)).sum::<f64>();
+        let (sum, count) = (values(image), image.rgb.as_flattened().len().max(1));
+        let error = variance.map_or(f64::INFINITY, |variance| values(variance).sqrt());
+        // A black picture is as sure as any.
+        let relative_error = if error == 0.0 { 0.0 } else { error / sum.max(f64::MIN_POSITIVE) };
+        Self { mean: sum / count as f64, relative_error }
+    }
+
+    /// Whether the render was long enough for the tile test to be meant.
+    pub(crate) fn is_settled(&self) -> bool {
+        self.relative_error < LONG_ENOUGH
+    }
+
+    /// Samples per pixel after which the error is about small enough, going by that of `spp` now.
+    pub(crate) fn wanted_length(&self, spp: u64) -> f64 {
+        spp as f64 * (self.relative_error / LONG_ENOUGH).powi(2)
+    }
+
+    /// Samples per pixel to go on to; `None` where the error is small enough or `most` is reached.
+    pub(crate) fn next_length(&self, spp: u64, most: u64) -> Option<u64> {
+        if self.is_settled() || spp >= most || spp == 0 {
+            return None;
+        }
+        // A tenth more than it seems to take; at most four times as much, as the error itself is an estimate.
+        let wanted = (1.1 * self.wanted_length(spp)).min(4.0 * spp as f64).ceil() as u64;
+        Some(wanted.clamp(spp + 1, most))
+    }
+}
 
 /// Outcome of a tile test.
 pub(crate) struct Tiles {
@@ -15,12 +56,12 @@ pub(crate) struct Tiles {
     pub(crate) count: usize,
     /// Tiles that disagree in some channel.
     pub(crate) failing: usize,
+    /// Tests, three a tile, that would fail by the tiles' own variances.
+    pub(crate) failing_by_own_variance: usize,
     /// Smallest p-value.
     pub(crate) worst_p: f64,
     /// What it must reach.
     pub(crate) threshold: f64,
-    /// Standard error of the picture's mean, relative to the mean.
-    pub(crate) mean_error: f64,
     /// The tiles that disagree, in words.
     pub(crate) failures: Vec<String>,
 }
@@ -34,37 +75,25 @@ impl Tiles {
         let shown = film.display();
         let film = Film::read(film).map_err(|error| format!("{shown}: {error}"))?;
         let film_variance = variance_of_mean(&film).ok_or("the tile test needs two passes")?;
-        let image = develop(&film);
         let (reference, variance) = (read(reference)?, read(variance)?);
-        let test =
-            tile_test(&image, &film_variance, &reference, &variance, hyaline_film::tile_test::TILE_SIZE)
-                .map_err(|error| error.to_string())?;
+        let size = hyaline_film::tile_test::TILE_SIZE;
+        let test = tile_test(&develop(&film), &film_variance, &reference, &variance, size)
+            .map_err(|error| error.to_string())?;
         let failing: BTreeSet<(u32, u32)> = test.failures.iter().map(|f| (f.tile.y0, f.tile.x0)).collect();
         Ok(Self {
             passes: test.passes,
             count: test.tile_count,
             failing: failing.len(),
+            failing_by_own_variance: test.failures_by_own_variance,
             worst_p: test.worst_p,
             threshold: test.threshold,
-            mean_error: mean_error(&image, &film_variance),
             failures: test.failures.iter().map(words).collect(),
         })
-    }
-
-    /// Whether the render was long enough for the test to be meant.
-    pub(crate) fn is_long_enough(&self) -> bool {
-        self.mean_error < LONG_ENOUGH
     }
 }
 
 fn read(path: &Path) -> Result<Image, String> {
     read_image(path).map_err(|error| format!("{}: {error}", path.display()))
-}
-
-/// Standard error of the mean over all pixels and channels, over that mean.
-fn mean_error(image: &Image, variance: &Image) -> f64 {
-    let sum = |image: &Image| image.rgb.as_flattened().iter().map(|v| f64::from(*v)).sum::<f64>();
-    sum(variance).sqrt() / sum(image).max(f64::MIN_POSITIVE)
 }
 
 fn words(failure: &TileFailure) -> String {
@@ -84,6 +113,21 @@ mod tests {
         // Mean 2 with variance 4 in each of 300 numbers: an error of sqrt(4 / 300) / 2.
         let (image, variance) =
             (Image::new(10, 10, vec![[2.0; 3]; 100]), Image::new(10, 10, vec![[4.0; 3]; 100]));
-        assert!((mean_error(&image, &variance) - (4.0_f64 / 300.0).sqrt() / 2.0).abs() < 1e-9);
+        let noise = Noise::new(&image, Some(&variance));
+        assert!((noise.mean - 2.0).abs() < 1e-9);
+        assert!((noise.relative_error - (4.0_f64 / 300.0).sqrt() / 2.0).abs() < 1e-9);
+        assert_eq!(Noise::new(&image, None).relative_error, f64::INFINITY);
+    }
+
+    #[test]
+    fn rounds_end_when_the_mean_is_settled_or_the_limit_is_reached() {
+        let noise = |relative_error| Noise { mean: 1.0, relative_error };
+        assert_eq!(noise(0.0029).next_length(64, 1000), None);
+        assert_eq!(noise(0.006).next_length(64, 1000), Some(256));
+        assert_eq!(noise(0.0033).next_length(1000, 10_000), Some(1331));
+        assert_eq!(noise(1.0).next_length(64, 1000), Some(256));
+        assert_eq!(noise(1.0).next_length(300, 1000), Some(1000));
+        assert_eq!(noise(1.0).next_length(1000, 1000), None);
+        assert_eq!(noise(f64::INFINITY).next_length(1, 64), Some(4));
     }
 }

@@ -38,24 +38,23 @@ pub(crate) use imported::override_imported;
 pub(crate) use references::add_material;
 pub(crate) use texture::IDENTITY_UV;
 
-use crate::Result;
 use crate::assets::Assets;
-use hyaline_scene::SceneDescription;
+use hyaline_scene::{SceneDescription, SceneError};
 use std::path::Path;
 use std::sync::Arc;
 
 /// Reads a scene from its text.
 ///
 /// # Errors
-/// The first fault, with its place.
+/// All faults, with their places: of each section, object, light and so on the first; at least one.
 pub(crate) fn read(
     text: &str,
     file: &Arc<str>,
     base_dir: &Path,
     overrides: &[(String, String)],
-) -> Result<SceneDescription> {
-    let mut root = document::parse(text, file)?;
-    overrides::apply(&mut root, overrides)?;
+) -> std::result::Result<SceneDescription, Vec<SceneError>> {
+    let mut root = document::parse(text, file).map_err(|fault| vec![fault])?;
+    overrides::apply(&mut root, overrides).map_err(|fault| vec![fault])?;
     let assets = Assets::new(base_dir);
     scene::Reader::new(&assets).read(&root)
 }

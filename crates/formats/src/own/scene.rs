@@ -7,9 +7,10 @@ use super::table::Table;
 use super::{camera, film, medium, references, settings};
 use crate::assets::Assets;
 use crate::{Result, unit};
+use hyaline_math::Transform;
 use hyaline_scene::{
-    IndexDescription, Located, MaterialDescription, MaterialKind, MediumDescription, SceneDescription,
-    SceneError, Source,
+    BoundaryDescription, IndexDescription, Located, MaterialDescription, MaterialKind, MediumDescription,
+    ObjectDescription, SceneDescription, SceneError, ShapeDescription, Source,
 };
 
 /// The version of the format that is read.
@@ -24,6 +25,8 @@ pub(super) struct Reader<'a> {
     pub(super) assets: &'a Assets,
     /// Length of a scene unit in metres.
     pub(super) metres: f64,
+    /// What is wrong; reading goes on after the entry that a fault is in.
+    faults: Vec<SceneError>,
 }
 
 /// The sections of a file, in the order in which they are read.
@@ -42,32 +45,59 @@ struct Sections<'a> {
 impl<'a> Reader<'a> {
     /// Starts with an empty scene.
     pub(super) fn new(assets: &'a Assets) -> Self {
-        Self { scene: SceneDescription::default(), assets, metres: 1.0 }
+        Self { scene: SceneDescription::default(), assets, metres: 1.0, faults: Vec::new() }
     }
 
     /// Reads a whole document.
-    pub(super) fn read(mut self, root: &Node) -> Result<SceneDescription> {
-        let sections = self.header(root)?;
+    ///
+    /// # Errors
+    /// All faults, at least one.
+    pub(super) fn read(mut self, root: &Node) -> std::result::Result<SceneDescription, Vec<SceneError>> {
+        let sections = self.header(root).map_err(|fault| vec![fault])?;
         if let Some(field) = sections.settings {
-            settings::read(field.table("settings")?, self.metres, &mut self.scene.settings)?;
+            let metres = self.metres;
+            let read = |table| settings::read(table, metres, &mut self.scene.settings);
+            let result = field.table("settings").and_then(read);
+            self.keep(result);
         }
         if let Some(field) = sections.film {
-            film::read(field.table("film")?, &mut self.scene.film)?;
+            let result = field.table("film").and_then(|table| film::read(table, &mut self.scene.film));
+            self.keep(result);
         }
-        self.named(sections.textures, "texture", Self::texture_entry)?;
-        self.named(sections.media, "medium", Self::medium_entry)?;
-        self.named(sections.materials, "material", Self::material_entry)?;
-        self.elements(sections.objects, "object", Self::object)?;
-        self.elements(sections.lights, "light", Self::light)?;
-        self.elements(sections.cameras, "camera", Self::camera)?;
+        self.named(sections.textures, "texture", Self::texture_entry);
+        self.named(sections.media, "medium", Self::medium_entry);
+        self.named(sections.materials, "material", Self::material_entry);
+        self.elements(sections.objects, "object", Self::object);
+        self.elements(sections.lights, "light", Self::light);
+        self.elements(sections.cameras, "camera", Self::camera);
         if let Some(field) = sections.world {
-            let mut table = field.table("world")?;
-            self.scene.surrounding = table.read_some("medium", |medium| medium.name())?;
-            table.finish()?;
+            let result = self.world(field);
+            self.keep(result);
         }
-        references::complete(&mut self.scene)?;
-        require_something(&self.scene, &root.source)?;
+        if !self.faults.is_empty() {
+            return Err(self.faults);
+        }
+        references::complete(&mut self.scene).map_err(|fault| vec![fault])?;
+        require_something(&self.scene, &root.source).map_err(|fault| vec![fault])?;
         Ok(self.scene)
+    }
+
+    fn keep(&mut self, result: Result<()>) {
+        self.faults.extend(result.err());
+    }
+
+    /// The items; none where they have a fault, which is kept.
+    fn kept<T>(&mut self, items: Result<Vec<T>>) -> Vec<T> {
+        items.unwrap_or_else(|fault| {
+            self.faults.push(fault);
+            Vec::new()
+        })
+    }
+
+    fn world(&mut self, field: Field<'_>) -> Result<()> {
+        let mut table = field.table("world")?;
+        self.scene.surrounding = table.read_some("medium", |medium| medium.name())?;
+        table.finish()
     }
 
     fn header<'n>(&mut self, root: &'n Node) -> Result<Sections<'n>> {
@@ -98,45 +128,58 @@ impl<'a> Reader<'a> {
         Ok(sections)
     }
 
-    /// Reads the entries of a section whose keys are names.
+    /// Reads the entries of a section whose keys are names, each whether or not another has a fault.
     fn named<'n>(
         &mut self,
         section: Option<Field<'n>>,
         what: &str,
         read: fn(&mut Self, Table<'n>, Located<String>) -> Result<()>,
-    ) -> Result<()> {
-        for (field, source) in section.map_or(Ok(Vec::new()), |section| section.entries())? {
-            let table = field.table(format!("{what} '{}'", field.key))?;
-            read(self, table, Located::new(field.key.to_owned(), source.clone()))?;
+    ) {
+        let entries = section.map_or(Ok(Vec::new()), |section| section.entries());
+        for (field, source) in self.kept(entries) {
+            let name = Located::new(field.key.to_owned(), source.clone());
+            let table = field.table(format!("{what} '{}'", field.key));
+            let result = table.and_then(|table| read(self, table, name));
+            self.keep(result);
         }
-        Ok(())
     }
 
-    /// Reads the elements of an array of tables; a single table stands for an array of one.
+    /// Reads the elements of an array of tables, each whether or not another has a fault; a single table stands for an
+    /// array of one.
     fn elements<'n>(
         &mut self,
         section: Option<Field<'n>>,
         what: &'static str,
         read: fn(&mut Self, Table<'n>, String) -> Result<()>,
-    ) -> Result<()> {
-        let Some(section) = section else { return Ok(()) };
+    ) {
+        let items = section.map_or(Ok(Vec::new()), |section| section.items_or_one());
         let mut names: Vec<(String, Source)> = Vec::new();
-        for (index, field) in section.items_or_one()?.into_iter().enumerate() {
-            let mut table = field.table(what)?;
-            let kind = table.take("kind").and_then(|kind| kind.string().ok()).unwrap_or_default();
-            let given = table.read_some("name", |name| name.name())?;
-            let place = given.as_ref().map_or(field.source(), |name| &name.source).clone();
-            let name = given.map_or_else(|| default_name(what, kind, index), |name| name.value);
-            if let Some((_, first)) = names.iter().find(|(other, _)| *other == name) {
-                let message = format!("two {what}s are named '{name}'; the other is at {first}");
-                return Err(SceneError::at(&place, message).with_remedy("rename one of them"));
-            }
-            table.what =
-                if what == "camera" { format!("camera '{name}'") } else { format!("{kind} '{name}'") };
-            names.push((name.clone(), place));
-            read(self, table, name)?;
+        for (index, field) in self.kept(items).into_iter().enumerate() {
+            let element = named_element(field, what, index, &mut names);
+            let result = element.and_then(|(table, name)| {
+                let result = read(self, table, name.clone());
+                if result.is_err() && what == "object" {
+                    self.stand_in(name, field.source());
+                }
+                result
+            });
+            self.keep(result);
         }
-        Ok(())
+    }
+
+    /// Puts something in the place of an object that has a fault, so that instances of it have none.
+    fn stand_in(&mut self, name: String, source: &Source) {
+        let shape = ShapeDescription::Compound { parts: Vec::new() };
+        let object = ObjectDescription {
+            name,
+            shape,
+            placement: Transform::IDENTITY,
+            boundary: BoundaryDescription::None,
+            material: Located::new(String::new(), source.clone()),
+            slot_materials: Vec::new(),
+            emission: None,
+        };
+        self.scene.objects.push(Located::new(object, source.clone()));
     }
 
     fn medium_entry(&mut self, mut table: Table<'_>, name: Located<String>) -> Result<()> {
@@ -166,6 +209,27 @@ impl<'a> Reader<'a> {
         let name = references::add_material(&mut self.scene.materials, wanted, source);
         Located::new(name, source.clone())
     }
+}
+
+/// The table of an element of `[[what]]` and its name, which differs from those in `names` and joins them.
+fn named_element<'n>(
+    field: Field<'n>,
+    what: &'static str,
+    index: usize,
+    names: &mut Vec<(String, Source)>,
+) -> Result<(Table<'n>, String)> {
+    let mut table = field.table(what)?;
+    let kind = table.take("kind").and_then(|kind| kind.string().ok()).unwrap_or_default();
+    let given = table.read_some("name", |name| name.name())?;
+    let place = given.as_ref().map_or(field.source(), |name| &name.source).clone();
+    let name = given.map_or_else(|| default_name(what, kind, index), |name| name.value);
+    if let Some((_, first)) = names.iter().find(|(other, _)| *other == name) {
+        let message = format!("two {what}s are named '{name}'; the other is at {first}");
+        return Err(SceneError::at(&place, message).with_remedy("rename one of them"));
+    }
+    table.what = if what == "camera" { format!("camera '{name}'") } else { format!("{kind} '{name}'") };
+    names.push((name.clone(), place));
+    Ok((table, name))
 }
 
 fn require_something(scene: &SceneDescription, source: &Source) -> Result<()> {

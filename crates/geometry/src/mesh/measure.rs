@@ -1,7 +1,8 @@
 //! Area, volume and the open edges of a mesh.
 
+use super::health::edge_uses;
 use super::{Mesh, doubled_area};
-use hyaline_math::Vec3;
+use hyaline_math::{DVec3, Vec3};
 
 /// How the faces of a mesh join.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -38,23 +39,31 @@ impl Mesh {
         (0..self.face_count() as u32).map(volume_of).sum()
     }
 
+    /// How far the mesh is from being closed: 0 for a closed one, 1 for a flat sheet, and little for a few holes.
+    ///
+    /// The length of the sum of the faces' areas as vectors, over the sum of their lengths: on a closed surface the
+    /// vectors cancel. A tube without ends counts as closed.
+    pub fn openness(&self) -> f64 {
+        let areas = || (0..self.face_count() as u32).map(|face| self.doubled_area(face));
+        areas().sum::<DVec3>().length() / areas().map(DVec3::length).sum::<f64>()
+    }
+
+    /// The same surface with its other side out: every face wound the other way. Vertex normals stay: of them only
+    /// the line counts.
+    pub fn turned_inside_out(mut self) -> Self {
+        self.data.triangles.iter_mut().for_each(|face| face.swap(1, 2));
+        self
+    }
+
     /// Counts open and flipped edges; vertices at the same position are one, since files split them at seams.
     pub fn topology(&self) -> MeshTopology {
-        let welded = weld(self.positions());
-        let mut edges = Vec::with_capacity(3 * self.face_count());
-        for face in self.triangles() {
-            for corner in 0..3 {
-                let (from, to) = (welded[face[corner] as usize], welded[face[(corner + 1) % 3] as usize]);
-                edges.push((from.min(to), from.max(to), from < to));
-            }
-        }
-        edges.sort_unstable();
+        let (uses, _) = edge_uses(self);
         let mut topology = MeshTopology::default();
-        for uses in edges.chunk_by(|a, b| (a.0, a.1) == (b.0, b.1)) {
-            let forward = uses.iter().filter(|edge| edge.2).count();
-            if uses.len() % 2 == 1 {
+        for edge in uses.chunk_by(|a, b| a.edge() == b.edge()) {
+            let forward = edge.iter().filter(|edge_use| edge_use.is_forward).count();
+            if edge.len() % 2 == 1 {
                 topology.open_edges += 1;
-            } else if 2 * forward != uses.len() {
+            } else if 2 * forward != edge.len() {
                 topology.flipped_edges += 1;
             }
         }
@@ -62,13 +71,13 @@ impl Mesh {
     }
 
     /// Twice the area of a face times its unit normal.
-    pub(super) fn doubled_area(&self, face: u32) -> hyaline_math::DVec3 {
+    pub(super) fn doubled_area(&self, face: u32) -> DVec3 {
         doubled_area(self.corners(face).map(|p| p.as_dvec3()))
     }
 }
 
 /// For each vertex the first one, in some fixed order, that lies at the same position.
-fn weld(positions: &[Vec3]) -> Vec<u32> {
+pub(super) fn weld(positions: &[Vec3]) -> Vec<u32> {
     // Adding zero turns -0 into +0, which is the same place.
     let key = |i: u32| (positions[i as usize] + Vec3::ZERO).to_array().map(f32::to_bits);
     let mut order: Vec<u32> = (0..positions.len() as u32).collect();

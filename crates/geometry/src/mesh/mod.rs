@@ -4,6 +4,7 @@
 
 mod error;
 pub mod generate;
+pub mod health;
 mod measure;
 mod sampler;
 mod surface;
@@ -12,6 +13,7 @@ mod tests;
 pub(crate) mod triangle;
 
 pub use error::MeshError;
+pub use health::MeshHealth;
 pub use measure::MeshTopology;
 pub use sampler::MeshSampler;
 

@@ -1,5 +1,6 @@
 //! The command as people meet it: run on small scenes in folders of their own.
 
+mod check;
 mod determinism;
 mod films;
 #[cfg(unix)]

@@ -1,24 +1,33 @@
 //! Cameras, and what they are in.
 
+use super::faults::Faults;
 use super::{Library, locate};
 use crate::World;
 use crate::camera::Camera;
 use hyaline_math::DVec3;
+use hyaline_scattering::MediumId;
 use hyaline_scene::{Note, SceneError};
+
+/// Looks for what is wrong with the cameras: there is none, or one declares a medium that is not there.
+pub(super) fn check(library: &Library, faults: &mut Faults) {
+    if library.description.cameras.is_empty() {
+        let remedy = "add a [camera] with `from`, `to` and `fov`";
+        faults.keep::<()>(Err(SceneError::general("the scene has no camera").with_remedy(remedy)));
+    }
+    for camera in &library.description.cameras {
+        faults.keep(library.medium_or(&camera.medium, MediumId(0)));
+    }
+}
 
 /// Adds all cameras to the world.
 ///
 /// # Errors
-/// There is none, or one declares a medium that is not there.
+/// One declares a medium that is not there.
 pub(super) fn compile_all(
     library: &Library,
     world: &mut World,
     notes: &mut Vec<Note>,
 ) -> Result<(), SceneError> {
-    if library.description.cameras.is_empty() {
-        let remedy = "add a [camera] with `from`, `to` and `fov`";
-        return Err(SceneError::general("the scene has no camera").with_remedy(remedy));
-    }
     let film = &library.description.film;
     let surrounding = library.surrounding()?;
     for camera in &library.description.cameras {

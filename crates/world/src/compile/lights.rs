@@ -1,5 +1,6 @@
 //! Lights without a shape.
 
+use super::faults::Faults;
 use super::{Library, RGB_LANES, lanes};
 use crate::light::{
     DirectionalLight, EnvironmentLight, Light, PointLight, ProjectorLight, SceneSphere, SkyImage, Slide,
@@ -19,18 +20,17 @@ pub(super) struct Shapeless {
     pub(super) ambient: Spectrum,
 }
 
-/// Compiles all lights without a shape.
+/// Compiles all lights without a shape; one that has a fault (a direction without length, an environment image that is
+/// not there) is left out.
 ///
 /// - `bounds`: of everything that can be lit; `shaped_lights`: number of lights that come before these.
-///
-/// # Errors
-/// A direction without length, an environment image that is not there.
 pub(super) fn compile_all(
     library: &Library,
     textures: &[Texture],
     bounds: Bounds,
     shaped_lights: usize,
-) -> Result<Shapeless, SceneError> {
+    faults: &mut Faults,
+) -> Shapeless {
     let mut result = Shapeless { lights: Vec::new(), camera_sky: Vec::new(), ambient: Spectrum::ZERO };
     let scene = SceneSphere::from_bounds(&bounds);
     for light in &library.description.lights {
@@ -39,10 +39,10 @@ pub(super) fn compile_all(
             continue;
         }
         let index = (shaped_lights + result.lights.len()) as u32;
-        let compiled = compile(library, textures, scene, light, index, &mut result.camera_sky)?;
-        result.lights.push(compiled);
+        let compiled = compile(library, textures, scene, light, index, &mut result.camera_sky);
+        result.lights.extend(faults.keep(compiled));
     }
-    Ok(result)
+    result
 }
 
 fn compile(

@@ -1,5 +1,6 @@
 //! Materials: names become indices, metals become indices of refraction.
 
+use super::faults::Faults;
 use super::names::nearest;
 use super::{Library, blends, lanes};
 use crate::material::{ColorInput, Composition, Finish, Material, ScalarInput};
@@ -13,17 +14,30 @@ use hyaline_spectrum::catalogue;
 
 const MORE_LIGHT: &str = "a surface can't give more light than it gets: keep it within 0…1";
 
-/// Compiles all materials, in order.
+/// Compiles all materials, in order; one that has a fault (a texture, metal or material that is not there, a number that
+/// cannot be) is black, so that the others keep their places.
 ///
 /// # Errors
-/// A texture, metal or material that is not there, a number that cannot be, a material that is made of itself.
-pub(super) fn compile_all(library: &Library, notes: &mut Vec<Note>) -> Result<Vec<Material>, SceneError> {
-    let described = &library.description.materials;
-    let materials = described
-        .iter()
-        .map(|m| compile(library, m, notes))
-        .collect::<Result<Vec<Material>, SceneError>>()?;
-    blends::check(library, &materials)?;
+/// A material that is made of itself.
+pub(super) fn compile_all(
+    library: &Library,
+    notes: &mut Vec<Note>,
+    faults: &mut Faults,
+) -> Result<Vec<Material>, Vec<SceneError>> {
+    let stand_in = Material {
+        composition: Composition::Single(Finish::Black),
+        two_sided: true,
+        back: None,
+        opacity: ScalarInput::Constant(1.0),
+        relief: None,
+        straight_shadows: false,
+    };
+    let described = library.description.materials.iter();
+    let materials: Vec<Material> = described
+        .map(|m| faults.keep(compile(library, m, notes)).unwrap_or_else(|| stand_in.clone()))
+        .collect();
+    // Whatever follows blends would run in circles with these.
+    blends::check(library, &materials).map_err(|fault| vec![fault])?;
     Ok(materials)
 }
 

@@ -10,6 +10,7 @@
 mod blends;
 mod cameras;
 mod coincidence;
+mod faults;
 mod light_media;
 mod lights;
 mod locate;
@@ -17,11 +18,15 @@ mod materials;
 mod media;
 mod names;
 mod objects;
+mod orientation;
 mod shapes;
 
 use crate::World;
 use crate::light::LightSet;
 use crate::texture::Texture;
+pub(crate) use shapes::is_open;
+
+use faults::Faults;
 use hyaline_geometry::Aggregate;
 use hyaline_scattering::{Boundaries, Medium, MediumId};
 use hyaline_scene::{Located, Note, SceneDescription, SceneError, Severity};
@@ -80,22 +85,38 @@ impl World {
     /// Returns the world and what is doubtful about it.
     ///
     /// # Errors
-    /// A name that nothing bears, a shape that cannot be, a scene without a camera or without anything to see.
+    /// The first fault: a name that nothing bears, a shape that cannot be, a scene without a camera.
     pub fn compile(description: &SceneDescription) -> Result<(World, Vec<Note>), SceneError> {
-        let mut notes = Vec::new();
+        Self::compile_or_all_faults(description).map_err(|faults| {
+            let first = faults.into_iter().next();
+            first.unwrap_or_else(|| SceneError::general("the scene can't be used"))
+        })
+    }
+
+    /// The same, telling everything that is wrong.
+    ///
+    /// # Errors
+    /// All faults, at least one, of an object only the first.
+    pub fn compile_or_all_faults(
+        description: &SceneDescription,
+    ) -> Result<(World, Vec<Note>), Vec<SceneError>> {
+        let (mut notes, mut faults) = (Vec::new(), Faults::default());
         let library = Library::new(description);
         let mut media = vec![Medium::VACUUM];
         for medium in &description.media {
-            media.push(media::compile(medium, &mut notes)?);
+            media.push(faults.keep(media::compile(medium, &mut notes)).unwrap_or(Medium::VACUUM));
         }
         let textures: Vec<Texture> = description.textures.iter().map(|t| Texture::new(&t.value)).collect();
-        let materials = materials::compile_all(&library, &mut notes)?;
-        let mut parts = objects::compile_all(&library, &materials, &mut notes)?;
+        let materials = materials::compile_all(&library, &mut notes, &mut faults)?;
+        let mut parts = objects::compile_all(&library, &materials, &mut notes, &mut faults);
 
         let bounds = parts.bounds();
-        let shapeless = lights::compile_all(&library, &textures, bounds, parts.lights.len())?;
+        let shapeless = lights::compile_all(&library, &textures, bounds, parts.lights.len(), &mut faults);
+        cameras::check(&library, &mut faults);
+        let bases = faults.keep(library.bases()).unwrap_or_default();
+        faults.none()?;
         parts.lights.extend(shapeless.lights);
-        let has_permeable = coincidence::mark(&mut parts, &media, &materials, &library.bases()?);
+        let has_permeable = coincidence::mark(&mut parts, &media, &materials, &bases);
         let mut world = World {
             geometry: Aggregate::build(parts.geometry),
             items: parts.items,
@@ -120,8 +141,9 @@ impl World {
                 "the scene has no light: the picture will be black, but for an ambient term in `whitted`";
             notes.push(Note { severity: Severity::Warning, source: None, message: message.into() });
         }
-        cameras::compile_all(&library, &mut world, &mut notes)?;
-        world.light_media = light_media::compile_all(&library, &world, &mut notes)?;
+        cameras::compile_all(&library, &mut world, &mut notes).map_err(|fault| vec![fault])?;
+        world.light_media =
+            light_media::compile_all(&library, &world, &mut notes).map_err(|fault| vec![fault])?;
         Ok((world, notes))
     }
 }

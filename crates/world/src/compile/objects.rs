@@ -1,5 +1,6 @@
 //! Objects: their surfaces become items of the geometry, their boundaries entries of a table, what shines a light.
 
+use super::faults::Faults;
 use super::shapes::{self, Meshes, Surface};
 use super::{Library, lanes};
 use crate::light::{Light, MeshLight, ShapeLight, ShiningSides};
@@ -71,21 +72,19 @@ impl Parts {
     }
 }
 
-/// Compiles all objects, in order.
-///
-/// # Errors
-/// A name that nothing bears, a shape that cannot be.
+/// Compiles all objects, in order; one that has a fault (a name that nothing bears, a shape that cannot be) is left out.
 pub(super) fn compile_all(
     library: &Library,
     materials: &[Material],
     notes: &mut Vec<Note>,
-) -> Result<Parts, SceneError> {
+    faults: &mut Faults,
+) -> Parts {
     let mut parts = Parts::default();
     let mut meshes = Meshes::new(library.description);
     for object in &library.description.objects {
-        compile(library, materials, object, &mut meshes, &mut parts, notes)?;
+        faults.keep(compile(library, materials, object, &mut meshes, &mut parts, notes));
     }
-    Ok(parts)
+    parts
 }
 
 fn compile(

@@ -1,6 +1,6 @@
 //! Shapes: from the words of a description to surfaces placed in the world.
 
-use super::Library;
+use super::{Library, orientation};
 use hyaline_geometry::bvh::MeshBvh;
 use hyaline_geometry::mesh::{self, Mesh, Shading, generate};
 use hyaline_geometry::shape::compose::{self, Ends};
@@ -9,8 +9,8 @@ use hyaline_geometry::vessel::{FillSpec, Level, Rim, Vessel, VesselSpec};
 use hyaline_geometry::{Primitive, Shape};
 use hyaline_math::{DVec3, Transform, Vec2, Vec3};
 use hyaline_scene::{
-    GeneratedForm, Located, MeshData, Note, ObjectDescription, ProfileCurve, RimKind, SceneDescription,
-    SceneError, ShapeDescription, ShapePart, VesselDescription, VesselProfile,
+    BoundaryDescription, GeneratedForm, Located, MeshData, Note, ObjectDescription, ProfileCurve, RimKind,
+    SceneDescription, SceneError, ShapeDescription, ShapePart, VesselDescription, VesselProfile,
 };
 use std::collections::HashMap;
 use std::f64::consts::{PI, TAU};
@@ -59,7 +59,8 @@ pub(super) fn resolve_instance<'a>(
 pub(super) struct Meshes {
     /// How many objects have a mesh, by its address in the description.
     uses: HashMap<*const MeshData, usize>,
-    shared: HashMap<(*const MeshData, bool), Arc<MeshBvh>>,
+    /// By address, whether normals are ignored, and whether it is of a body, which may have turned it.
+    shared: HashMap<(*const MeshData, bool, bool), Arc<MeshBvh>>,
 }
 
 impl Meshes {
@@ -93,11 +94,12 @@ impl Meshes {
             let mesh = build(object, moved(taken(data), placement), flat, notes)?;
             return Ok(Surface::Mesh { mesh, transform: None });
         }
-        let mesh = match self.shared.get(&(key, flat)) {
+        let key = (key, flat, matches!(object.boundary, BoundaryDescription::Solid { .. }));
+        let mesh = match self.shared.get(&key) {
             Some(mesh) => mesh.clone(),
             None => {
                 let mesh = build(object, taken(data), flat, notes)?;
-                self.shared.insert((key, flat), mesh.clone());
+                self.shared.insert(key, mesh.clone());
                 mesh
             }
         };
@@ -160,7 +162,7 @@ fn build(
         );
         notes.push(Note::info(&object.source, message));
     }
-    Ok(Arc::new(MeshBvh::new(mesh)))
+    Ok(Arc::new(MeshBvh::new(orientation::settle(object, mesh, notes))))
 }
 
 /// The surfaces of a shape, each with the number of the part of a compound that it belongs to.
@@ -268,7 +270,7 @@ fn primitives(shape: &ShapeDescription) -> Result<Vec<Primitive>, ShapeError> {
 }
 
 /// Whether a shape that is no mesh surely has no inside.
-pub(super) fn is_open(shape: &ShapeDescription) -> bool {
+pub(crate) fn is_open(shape: &ShapeDescription) -> bool {
     let is_part = |range: &[f64; 2], whole: f64| range[1] - range[0] < whole * (1.0 - 1e-9);
     match shape {
         ShapeDescription::Disc { .. } | ShapeDescription::Rectangle { .. } => true,
