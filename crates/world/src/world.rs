@@ -51,6 +51,8 @@ pub struct World {
     pub camera_media: Vec<MediumSet>,
     /// Whether shadow rays can pass any boundary straight.
     pub has_permeable: bool,
+    /// Whether any medium scatters or shines.
+    pub has_volumes: bool,
     /// Lanes of a spectrum that carry something.
     pub lanes: usize,
 }

@@ -84,7 +84,7 @@ impl World {
         let library = Library::new(description);
         let mut media = vec![Medium::VACUUM];
         for medium in &description.media {
-            media.push(media::compile(medium, &mut notes)?);
+            media.push(media::compile(medium)?);
         }
         let textures: Vec<Texture> = description.textures.iter().map(|t| Texture::new(&t.value)).collect();
         let materials = materials::compile_all(&library)?;
@@ -110,9 +110,12 @@ impl World {
             camera_names: Vec::new(),
             camera_media: Vec::new(),
             has_permeable,
+            has_volumes: false,
             lanes: RGB_LANES,
         };
-        if world.lights.lights().is_empty() {
+        world.has_volumes = world.media.iter().any(|medium| medium.scatters() || medium.shines());
+        let shines = world.media.iter().any(Medium::shines);
+        if world.lights.lights().is_empty() && !shines {
             let message =
                 "the scene has no light: the picture will be black, but for an ambient term in `whitted`";
             notes.push(Note { severity: Severity::Warning, source: None, message: message.into() });
