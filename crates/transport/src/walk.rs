@@ -145,7 +145,7 @@ struct Flights<'a> {
 
 impl Between for Flights<'_> {
     fn pass(&mut self, medium: &Medium, ray: &Ray, distance: f32, left: &mut Spectrum) -> Option<f32> {
-        if !medium.scatters() && !medium.shines() {
+        if !medium.scatters() && !medium.shines() && medium.grid.is_none() {
             return Dimmed.pass(medium, ray, distance, left);
         }
         let flyer =

@@ -113,7 +113,8 @@ impl World {
             has_volumes: false,
             lanes: RGB_LANES,
         };
-        world.has_volumes = world.media.iter().any(|medium| medium.scatters() || medium.shines());
+        world.has_volumes =
+            world.media.iter().any(|medium| medium.scatters() || medium.shines() || medium.grid.is_some());
         let shines = world.media.iter().any(Medium::shines);
         if world.lights.lights().is_empty() && !shines {
             let message =
