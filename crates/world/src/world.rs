@@ -1,7 +1,7 @@
 //! The world that rays travel in.
 
 use crate::camera::Camera;
-use crate::light::LightSet;
+use crate::light::{LightMedia, LightSet};
 use crate::material::Material;
 use crate::texture::Texture;
 use hyaline_geometry::Aggregate;
@@ -39,6 +39,8 @@ pub struct World {
     pub textures: Vec<Texture>,
     /// The lights, and how they are chosen.
     pub lights: LightSet,
+    /// What the light of each light starts in.
+    pub light_media: Vec<LightMedia>,
     /// Indices of the surroundings that camera rays see.
     pub camera_sky: Vec<u32>,
     /// Suffern's ambient radiance, for `whitted`.

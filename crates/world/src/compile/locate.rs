@@ -4,6 +4,8 @@
 //! ray votes by how often it leaves the solid before it has entered it; the majority counts. The base medium is
 //! told by the first interface met: it faces the place with one of its sides. Where nothing tells, the declared medium
 //! holds. Parity to infinity is never asked: one hole in a mesh would turn everything inside out.
+//!
+//! A lamp is not a point: its rays start at several places just off its surface in turn, and vote together.
 
 use crate::World;
 use crate::world::mask;
@@ -16,13 +18,13 @@ use std::collections::BTreeMap;
 /// Rays sent out; odd, so that votes seldom tie.
 const RAY_COUNT: usize = 61;
 
-/// The medium set at `place`.
+/// The medium set at `places`, which are taken for one; without a place that of the declared medium.
 ///
 /// - `declared`: base medium where no interface tells another.
-/// - `name`: what warnings call the thing at `place`.
+/// - `name`: what warnings call the thing at `places`.
 pub(super) fn locate(
     world: &World,
-    place: Vec3,
+    places: &[Vec3],
     declared: MediumId,
     name: &str,
     source: &Source,
@@ -32,7 +34,8 @@ pub(super) fn locate(
     if (0..world.object_names.len() as u32).all(|o| world.boundaries.of(ObjectId(o)) == BoundaryKind::None) {
         return set;
     }
-    let views: Vec<View> = (0..RAY_COUNT).map(|i| look(world, place, direction(i))).collect();
+    let starts = places.iter().cycle().zip(0..RAY_COUNT);
+    let views: Vec<View> = starts.map(|(&place, i)| look(world, place, direction(i))).collect();
     let bases = count(views.iter().filter_map(|view| view.base));
     if let Some((&base, &votes)) = bases.iter().max_by_key(|&(_, &votes)| votes) {
         let total: usize = bases.values().sum();

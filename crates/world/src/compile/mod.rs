@@ -5,10 +5,11 @@
 //!    becomes a light.
 //! 3. The hierarchy over everything; which items may coincide with others.
 //! 4. Lights without a shape, cameras.
-//! 5. Where each camera is: found by looking around.
+//! 5. Where each camera and light is: found by looking around.
 
 mod cameras;
 mod coincidence;
+mod light_media;
 mod lights;
 mod locate;
 mod materials;
@@ -104,6 +105,7 @@ impl World {
             materials,
             textures,
             lights: LightSet::new(parts.lights, RGB_LANES),
+            light_media: Vec::new(),
             camera_sky: shapeless.camera_sky,
             ambient: shapeless.ambient,
             cameras: Vec::new(),
@@ -122,6 +124,7 @@ impl World {
             notes.push(Note { severity: Severity::Warning, source: None, message: message.into() });
         }
         cameras::compile_all(&library, &mut world, &mut notes)?;
+        world.light_media = light_media::compile_all(&library, &world, &mut notes)?;
         Ok((world, notes))
     }
 }

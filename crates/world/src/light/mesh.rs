@@ -40,6 +40,10 @@ impl MeshLight {
         EmissionPdf { position: self.pdf_a(), direction: self.emission.pdf_of_direction(n, direction) }
     }
 
+    pub(super) fn is_two_sided(&self) -> bool {
+        self.emission.sides == ShiningSides::Both
+    }
+
     pub(super) fn power(&self) -> Spectrum {
         self.emission.power(self.sampler.area() as f32)
     }

@@ -6,6 +6,7 @@
 
 mod directional;
 mod environment;
+mod media;
 mod mesh;
 mod point;
 mod sample;
@@ -20,6 +21,7 @@ mod tests;
 
 pub use directional::DirectionalLight;
 pub use environment::EnvironmentLight;
+pub use media::LightMedia;
 pub use mesh::MeshLight;
 pub use point::PointLight;
 pub use sample::{DirectSample, EmissionPdf, EmissionSample, LightPoint, SceneSphere};
@@ -144,6 +146,15 @@ impl Light {
             Self::Shape(light) => light.pdf_emission(n, direction),
             Self::Mesh(light) => light.pdf_emission(n, direction),
             Self::Environment(light) => light.pdf_emission(direction),
+        }
+    }
+
+    /// Whether it is a surface that shines on both sides.
+    pub fn is_two_sided(&self) -> bool {
+        match self {
+            Self::Shape(light) => light.is_two_sided(),
+            Self::Mesh(light) => light.is_two_sided(),
+            Self::Point(_) | Self::Spot(_) | Self::Directional(_) | Self::Environment(_) => false,
         }
     }
 

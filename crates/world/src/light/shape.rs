@@ -85,6 +85,10 @@ impl ShapeLight {
         EmissionPdf { position: self.pdf_a(n), direction: self.emission.pdf_of_direction(n, direction) }
     }
 
+    pub(super) fn is_two_sided(&self) -> bool {
+        self.emission.sides == ShiningSides::Both
+    }
+
     pub(super) fn power(&self) -> Spectrum {
         self.emission.power(self.area)
     }
