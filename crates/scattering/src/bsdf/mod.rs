@@ -192,6 +192,11 @@ impl SurfaceBsdf {
         self.bsdf.is_delta()
     }
 
+    /// Whether no light crosses the surface here.
+    pub fn is_opaque(&self) -> bool {
+        self.bsdf.is_opaque()
+    }
+
     /// Whether part of the light is scattered evenly, as by Lambert's law.
     pub fn has_diffuse_part(&self) -> bool {
         matches!(self.bsdf, Bsdf::Matte(_) | Bsdf::Phong(_))

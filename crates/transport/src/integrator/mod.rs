@@ -1,9 +1,11 @@
 //! What an integrator is: something that prepares, and then renders numbered passes that know nothing of each other.
 
+mod merging;
 mod path;
 mod per_pixel;
 mod whitted;
 
+pub use merging::MergingIntegrator;
 pub use path::{PathIntegrator, radiance};
 pub use whitted::WhittedIntegrator;
 
@@ -90,12 +92,13 @@ pub trait Pass: Send + Sync {
 }
 
 /// Names of the integrators there are, the default first.
-pub const NAMES: [&str; 2] = ["path", "whitted"];
+pub const NAMES: [&str; 3] = ["path", "whitted", "merging"];
 
 /// The integrator of that name.
 pub fn by_name(name: &str) -> Option<Box<dyn Integrator>> {
     match name {
         "path" => Some(Box::new(PathIntegrator)),
+        "merging" => Some(Box::new(MergingIntegrator)),
         "whitted" => Some(Box::new(WhittedIntegrator)),
         _ => None,
     }

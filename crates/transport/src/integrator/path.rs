@@ -29,7 +29,7 @@ const PATIENCE_WITH_BOUNCES: u32 = 128;
 
 /// Singular events in a row after which a path turns to geometric normals: shading normals are not reversible, and
 /// light that they let into a mesh may be trapped by total reflection for good.
-const PATIENCE_WITH_SHADING_NORMALS: u32 = 32;
+pub(super) const PATIENCE_WITH_SHADING_NORMALS: u32 = 32;
 
 /// Singular crossings in a row after which roulette ends even lossless paths now and then: light trapped by
 /// total reflection for good would never end otherwise.
@@ -196,7 +196,7 @@ fn emitted(world: &World, vertex: &Vertex, ray: &Ray, last: &LastScatter) -> Spe
 }
 
 /// Probability that a path goes on, given its largest lane without the n² factors.
-fn survival(weight: f32, bounces: u32, crossings: u32) -> f32 {
+pub(super) fn survival(weight: f32, bounces: u32, crossings: u32) -> f32 {
     if crossings > PATIENCE_WITH_CROSSINGS {
         return weight.clamp(0.05, 0.95);
     }

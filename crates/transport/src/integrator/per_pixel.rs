@@ -43,16 +43,30 @@ struct PixelPass<'a> {
 impl Pass for PixelPass<'_> {
     fn render_tile(&self, tile: Rect, samples: &mut [PixelSample], stats: &mut Stats) {
         let PerPixel { world, view, settings, estimate } = self.prepared;
-        for ((x, y), sample) in tile.pixels().zip(samples) {
-            let mut sampler = Sampler::new(settings.sampler, settings.seed, (x, y), self.pass);
-            let film = Vec2::new(x as f32 + 0.5, y as f32 + 0.5) + view.filter.sample(sampler.next_2d());
-            let lens = sampler.next_2d();
-            *sample = PixelSample::default();
-            if let Some(ray) = world.cameras[view.camera].ray(film, lens) {
-                let start = world.camera_media[view.camera].clone();
-                let radiance = estimate(world, settings, ray, start, &mut sampler, stats, Some(sample));
-                sample.beauty = radiance.to_rgb();
-            }
+        for (pixel, sample) in tile.pixels().zip(samples) {
+            camera_sample(world, settings, view, pixel, self.pass, sample, |ray, set, sampler, sample| {
+                estimate(world, settings, ray, set, sampler, stats, Some(sample))
+            });
         }
+    }
+}
+
+/// Makes sample number `pass` of a pixel from an estimate of the radiance along its camera ray.
+pub(super) fn camera_sample(
+    world: &World,
+    settings: &RenderSettings,
+    view: &View,
+    (x, y): (u32, u32),
+    pass: u32,
+    sample: &mut PixelSample,
+    estimate: impl FnOnce(Ray, MediumSet, &mut Sampler, &mut PixelSample) -> Spectrum,
+) {
+    let mut sampler = Sampler::new(settings.sampler, settings.seed, (x, y), pass);
+    let film = Vec2::new(x as f32 + 0.5, y as f32 + 0.5) + view.filter.sample(sampler.next_2d());
+    let lens = sampler.next_2d();
+    *sample = PixelSample::default();
+    if let Some(ray) = world.cameras[view.camera].ray(film, lens) {
+        let start = world.camera_media[view.camera].clone();
+        sample.beauty = estimate(ray, start, &mut sampler, sample).to_rgb();
     }
 }
