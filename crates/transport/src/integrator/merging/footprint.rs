@@ -9,7 +9,7 @@ use hyaline_world::camera::PixelSpread;
 /// Gather radius in pixels, before it shrinks.
 const PIXELS: f32 = 2.5;
 /// Share of a scattering lobe's width by which the cone opens.
-const OPENING: f32 = 0.03;
+const OPENING: f32 = 0.006;
 
 /// The cone of a path.
 #[derive(Clone, Copy, Debug)]
