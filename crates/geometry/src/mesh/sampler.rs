@@ -48,7 +48,17 @@ impl MeshSampler {
     /// - `u2`: uniform in [0, 1)².
     pub fn sample(&self, u2: Vec2) -> AreaSample {
         let (face, rest) = self.choose_face(u2.x);
-        let point = self.mesh.mesh().point(face, square_to_triangle(rest, u2.y), self.transform.as_ref());
+        self.sample_face(face, Vec2::new(rest, u2.y))
+    }
+
+    /// A point of one face, uniform by area; `pdf_a` is the density of all points of the mesh.
+    ///
+    /// - `u2`: uniform in [0, 1)².
+    ///
+    /// # Panics
+    /// Where there is no such face.
+    pub fn sample_face(&self, face: u32, u2: Vec2) -> AreaSample {
+        let point = self.mesh.mesh().point(face, square_to_triangle(u2.x, u2.y), self.transform.as_ref());
         AreaSample { p: point.p, p_error: point.p_error, n: point.ng, pdf_a: (1.0 / self.area) as f32 }
     }
 

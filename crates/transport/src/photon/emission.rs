@@ -4,13 +4,14 @@
 //! direction, always in this order. Lights are chosen in proportion to their power, so that all photons carry (nearly)
 //! the same flux.
 
+use super::projection::{Departure, Projection};
 use hyaline_math::{Ray, offset_origin};
 use hyaline_sampling::Sampler;
 use hyaline_scattering::MediumSet;
 use hyaline_scene::ProjectionMaps;
 use hyaline_spectrum::Spectrum;
 use hyaline_world::World;
-use hyaline_world::light::{EmissionSample, LightSampler};
+use hyaline_world::light::{Light, LightSampler};
 
 /// A photon on its way.
 #[derive(Clone, Debug, PartialEq)]
@@ -29,24 +30,38 @@ pub struct PhotonStart {
 #[derive(Clone, Debug)]
 pub struct PhotonEmitter<'w> {
     world: &'w World,
+    projections: Vec<Projection>,
     choice: LightSampler,
     fraction: f32,
 }
 
 impl<'w> PhotonEmitter<'w> {
-    /// Prepares the choice among the lights and the projection maps.
+    /// Prepares the projection maps and the choice among the lights.
     ///
     /// - `maps`: toward what to emit; `ProjectionMaps::None` sends out all light.
-    /// - `cells`: cells of a projection map along each of its axes, ≥ 1.
-    pub fn new(world: &'w World, _maps: ProjectionMaps, _cells: u32) -> Self {
-        let powers: Vec<f32> = world.lights.lights().iter().map(|l| l.power().mean(world.lanes)).collect();
-        let fraction = if powers.iter().any(|&power| power > 0.0) { 1.0 } else { 0.0 };
-        Self { world, choice: LightSampler::new(&powers, 0.0), fraction }
+    /// - `cells`: cells of a projection map along each of its axes, ≥ 1; large numbers are cut down.
+    pub fn new(world: &'w World, maps: ProjectionMaps, cells: u32) -> Self {
+        let projections = Projection::of_lights(world, maps, cells);
+        let power = |light: &Light| f64::from(light.power().mean(world.lanes));
+        let powers = world.lights.lights().iter().map(power);
+        let kept: Vec<f64> = powers.clone().zip(&projections).map(|(p, map)| p * map.kept()).collect();
+        let total: f64 = powers.sum();
+        let fraction = if total > 0.0 { kept.iter().sum::<f64>() / total } else { 0.0 };
+        let weights: Vec<f32> = kept.iter().map(|&kept| kept as f32).collect();
+        Self { world, projections, choice: LightSampler::new(&weights, 0.0), fraction: fraction as f32 }
     }
 
     /// Share of all lights' power that is emitted, 0…1; 0 where there is nothing to emit.
+    ///
+    /// Exact for cells of lights that shine alike in all directions and places; for `Objects` what overlaps is counted
+    /// as often as it is covered, though it is emitted once.
     pub fn fraction(&self) -> f32 {
         self.fraction
+    }
+
+    /// Memory of the projection maps, bytes.
+    pub fn memory(&self) -> usize {
+        self.projections.iter().map(Projection::memory).sum()
     }
 
     /// One photon; `None` where this choice has no light, which counts as a photon without flux.
@@ -55,17 +70,15 @@ impl<'w> PhotonEmitter<'w> {
     pub fn emit(&self, sampler: &mut Sampler) -> Option<PhotonStart> {
         let (u_choice, u_position, u_direction) = (sampler.next_1d(), sampler.next_2d(), sampler.next_2d());
         let choice = self.choice.sample(u_choice)?;
-        let sample = self.world.lights.get(choice.index).sample_emission(u_position, u_direction)?;
-        Some(self.start(choice.index as u32, &sample, 1.0 / choice.probability))
+        let light = self.world.lights.get(choice.index);
+        let departure = self.projections[choice.index].emit(light, choice.u, u_position, u_direction)?;
+        Some(self.start(choice.index as u32, &departure, 1.0 / choice.probability))
     }
 
-    fn start(&self, light: u32, sample: &EmissionSample, factor: f32) -> PhotonStart {
-        let direction = sample.direction;
-        let origin = match sample.n {
-            Some(n) => offset_origin(sample.origin, sample.p_error, n, direction),
-            None => sample.origin,
-        };
-        let set = self.world.emission_set(light, sample.n, direction).clone();
-        PhotonStart { ray: Ray::new(origin, direction), flux: sample.weight * factor, light, set }
+    fn start(&self, light: u32, departure: &Departure, factor: f32) -> PhotonStart {
+        let Departure { origin, p_error, n, direction, flux } = *departure;
+        let origin = n.map_or(origin, |n| offset_origin(origin, p_error, n, direction));
+        let set = self.world.emission_set(light, n, direction).clone();
+        PhotonStart { ray: Ray::new(origin, direction), flux: flux * factor, light, set }
     }
 }

@@ -148,7 +148,7 @@ impl Estimate {
         scratch: &mut Nearest,
     ) -> Collected {
         let nearest = self.nearest.max(2);
-        map.nearest(region, nearest, |i| counts(*map.payload(i)), scratch);
+        map.nearest(region, nearest, |i: u32| counts(*map.payload(i)), scratch);
         let found = scratch.len() as u32;
         let radius = match scratch.take_farthest(nearest) {
             Some(distance2) => distance2.sqrt(),

@@ -1,15 +1,15 @@
 //! Photons: how they start, travel, are kept, and are found again.
 
 pub mod emission;
-
-pub use emission::{PhotonEmitter, PhotonStart};
 pub mod gather;
 pub mod kernel;
+mod projection;
+pub mod radius;
 pub mod record;
 pub mod tree;
 
+pub use emission::{PhotonEmitter, PhotonStart};
 pub use gather::{Estimate, Gathered, PhotonMap};
 pub use kernel::Kernel;
 pub use record::{PackedPhoton, Photon, PhotonKind};
-pub use tree::{Disc, Nearest, PointTree, Region};
-pub mod radius;
+pub use tree::{Accept, All, Disc, Nearest, PointTree, Region};

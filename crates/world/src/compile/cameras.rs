@@ -25,7 +25,7 @@ pub(super) fn compile_all(
         let base = library.medium_or(&camera.medium, surrounding)?;
         let place = camera.placement.point(DVec3::ZERO).as_vec3();
         let name = format!("camera '{}'", camera.name);
-        let set = locate::locate(world, &[place], base, &name, &camera.source, notes);
+        let set = locate::locate(world, &[place], None, base, &name, &camera.source, notes);
         world.cameras.push(Camera::new(camera, film.width, film.height));
         world.camera_names.push(camera.name.clone());
         world.camera_media.push(set);

@@ -36,7 +36,7 @@ pub(super) fn compile_all(
             Some(place) => {
                 let declared = library.medium_or(&light.medium, surrounding)?;
                 let name = format!("light '{}'", light.name);
-                locate::locate(world, &[place.as_vec3()], declared, &name, &light.source, notes)
+                locate::locate(world, &[place.as_vec3()], None, declared, &name, &light.source, notes)
             }
         };
         media.push(LightMedia { outer: set.clone(), inner: set });
@@ -47,17 +47,18 @@ pub(super) fn compile_all(
 /// Locates the lights with a surface, which come first.
 fn lamps(library: &Library, world: &World, notes: &mut Vec<Note>) -> Result<Vec<LightMedia>, SceneError> {
     let surrounding = library.surrounding()?;
-    let lamps = world.items.iter().filter_map(|item| Some((item.light? as usize, item)));
+    let items = (0..).zip(&world.items);
+    let lamps = items.filter_map(|(id, info)| Some((id, info.light? as usize, info)));
     let mut media = Vec::new();
-    for (index, item) in lamps {
+    for (item, index, info) in lamps {
         debug_assert_eq!(index, media.len(), "items are added in the order of their lights");
         // A part of a compound bears the name of the whole.
-        let name = &world.object_names[item.object.0 as usize];
+        let name = &world.object_names[info.object.0 as usize];
         let object = &library.description.objects[library.objects.find(&name.as_str().into())?];
         let emission = object.emission.as_ref();
         let declared = emission.map_or(Ok(surrounding), |e| library.medium_or(&e.medium, surrounding))?;
         let mut look =
-            Look { world, declared, name: format!("light '{name}'"), source: &object.source, notes };
+            Look { world, item, declared, name: format!("light '{name}'"), source: &object.source, notes };
         media.push(look.both_sides(world.lights.get(index)));
     }
     Ok(media)
@@ -66,6 +67,7 @@ fn lamps(library: &Library, world: &World, notes: &mut Vec<Note>) -> Result<Vec<
 /// What it takes to locate a lamp.
 struct Look<'a> {
     world: &'a World,
+    item: u32,
     declared: MediumId,
     name: String,
     source: &'a Source,
@@ -80,7 +82,15 @@ impl Look<'_> {
     }
 
     fn locate(&mut self, places: &[Vec3]) -> MediumSet {
-        locate::locate(self.world, places, self.declared, &self.name, self.source, self.notes)
+        locate::locate(
+            self.world,
+            places,
+            Some(self.item),
+            self.declared,
+            &self.name,
+            self.source,
+            self.notes,
+        )
     }
 }
 

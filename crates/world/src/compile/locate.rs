@@ -5,7 +5,8 @@
 //! told by the first interface met: it faces the place with one of its sides. Where nothing tells, the declared medium
 //! holds. Parity to infinity is never asked: one hole in a mesh would turn everything inside out.
 //!
-//! A lamp is not a point: its rays start at several places just off its surface in turn, and vote together.
+//! A lamp is not a point: its rays start at several places just off its surface in turn, and vote together. Where what
+//! it faces tells nothing, they look through the lamp itself at what is behind it.
 
 use crate::World;
 use crate::world::mask;
@@ -20,11 +21,13 @@ const RAY_COUNT: usize = 61;
 
 /// The medium set at `places`, which are taken for one; without a place that of the declared medium.
 ///
+/// - `lamp`: item that the places lie on, if any.
 /// - `declared`: base medium where no interface tells another.
 /// - `name`: what warnings call the thing at `places`.
 pub(super) fn locate(
     world: &World,
     places: &[Vec3],
+    lamp: Option<u32>,
     declared: MediumId,
     name: &str,
     source: &Source,
@@ -34,8 +37,14 @@ pub(super) fn locate(
     if (0..world.object_names.len() as u32).all(|o| world.boundaries.of(ObjectId(o)) == BoundaryKind::None) {
         return set;
     }
-    let starts = places.iter().cycle().zip(0..RAY_COUNT);
-    let views: Vec<View> = starts.map(|(&place, i)| look(world, place, direction(i))).collect();
+    let look_around = |through: Option<u32>| -> Vec<View> {
+        let starts = places.iter().cycle().zip(0..RAY_COUNT);
+        starts.map(|(&place, i)| look(world, place, direction(i), through)).collect()
+    };
+    let mut views = look_around(None);
+    if lamp.is_some() && views.iter().all(View::tells_nothing) {
+        views = look_around(lamp);
+    }
     let bases = count(views.iter().filter_map(|view| view.base));
     if let Some((&base, &votes)) = bases.iter().max_by_key(|&(_, &votes)| votes) {
         let total: usize = bases.values().sum();
@@ -70,7 +79,14 @@ struct View {
     depths: BTreeMap<ObjectId, u32>,
 }
 
-fn look(world: &World, place: Vec3, direction: Vec3) -> View {
+impl View {
+    fn tells_nothing(&self) -> bool {
+        self.base.is_none() && self.depths.is_empty()
+    }
+}
+
+/// - `through`: item that is looked through.
+fn look(world: &World, place: Vec3, direction: Vec3, through: Option<u32>) -> View {
     let mut view = View::default();
     let mut net: BTreeMap<ObjectId, i32> = BTreeMap::new();
     let ray = Ray::new(place, direction);
@@ -78,7 +94,7 @@ fn look(world: &World, place: Vec3, direction: Vec3) -> View {
         let object = world.items[hit.item as usize].object;
         let leaves = hit.ng.dot(direction) > 0.0;
         match world.boundaries.of(object) {
-            BoundaryKind::None if !world.is_thin(&hit) => break,
+            BoundaryKind::None if through != Some(hit.item) && !world.is_thin(&hit) => break,
             BoundaryKind::None => {}
             BoundaryKind::Solid { .. } => {
                 let net = net.entry(object).or_default();

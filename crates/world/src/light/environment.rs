@@ -4,11 +4,15 @@
 //! density per solid angle is constant in a cell and positive wherever the interpolated image is. Light that enters
 //! the scene from such a direction starts on a disc that covers the scene's bounding sphere.
 
+mod restricted;
+
+pub use restricted::{RestrictedSky, SkyDirection};
+
 use super::{DirectSample, EmissionPdf, EmissionSample, SceneSphere, SkyImage};
 use hyaline_math::{Mat3, Transform, Vec2, Vec3};
-use hyaline_sampling::{Distribution2d, warp};
+use hyaline_sampling::{Distribution2d, Pick2d, warp};
 use hyaline_spectrum::Spectrum;
-use std::f32::consts::PI;
+use std::f64::consts::PI;
 
 /// The surroundings as a light.
 #[derive(Clone, Debug, PartialEq)]
@@ -33,12 +37,14 @@ struct ImageSky {
     to_image: Mat3,
     /// `None` for a black image.
     cells: Option<Distribution2d>,
+    /// How many lanes count when directions are chosen.
+    lanes: usize,
 }
 
 impl EnvironmentLight {
     /// The same radiance from everywhere, W sr⁻¹ m⁻².
     pub fn from_constant(radiance: Spectrum, scene: SceneSphere) -> Self {
-        Self { sky: Sky::Constant(radiance), scene, total: radiance * (4.0 * PI) }
+        Self { sky: Sky::Constant(radiance), scene, total: radiance * (4.0 * PI) as f32 }
     }
 
     /// The radiance of an image, W sr⁻¹ m⁻².
@@ -49,11 +55,11 @@ impl EnvironmentLight {
         let mut weights = Vec::with_capacity(image.width() as usize * image.height() as usize);
         let mut total = [0.0; 4];
         image.for_each_cell(|light| {
-            weights.push((light[..lanes].iter().sum::<f64>() / lanes as f64) as f32);
+            weights.push(mean(light, lanes));
             total = std::array::from_fn(|lane| total[lane] + light[lane]);
         });
         let cells = Distribution2d::new(image.width() as usize, &weights).ok();
-        let sky = ImageSky { image, to_image: rotation_of(placement), cells };
+        let sky = ImageSky { image, to_image: rotation_of(placement), cells, lanes };
         let total = Spectrum::from_lanes(total.map(|x| x as f32));
         Self { sky: Sky::Image(Box::new(sky)), scene, total }
     }
@@ -107,6 +113,11 @@ impl EnvironmentLight {
         self.total * self.scene.disc_area()
     }
 
+    /// What it shines on.
+    pub fn scene(&self) -> &SceneSphere {
+        &self.scene
+    }
+
     /// A direction to the sky and its density, sr⁻¹.
     fn sample_direction(&self, u: Vec2) -> Option<(Vec3, f32)> {
         match &self.sky {
@@ -118,11 +129,15 @@ impl EnvironmentLight {
 
 impl ImageSky {
     fn sample(&self, u: Vec2) -> Option<(Vec3, f32)> {
-        let pick = self.cells.as_ref()?.sample(u);
+        Some(self.direction_of(&self.cells.as_ref()?.sample(u)))
+    }
+
+    /// The direction at a chosen place of the image, and its density, sr⁻¹.
+    fn direction_of(&self, pick: &Pick2d) -> (Vec3, f32) {
         let cell = [pick.x as u32, pick.y as u32];
         let inside = pick.uv * self.size() - Vec2::new(pick.x as f32, pick.y as f32);
         let local = self.image.direction_in_cell(cell, inside.clamp(Vec2::ZERO, Vec2::ONE));
-        Some((self.to_image.transpose() * local, pick.pdf * self.per_solid_angle(cell[1])))
+        (self.to_image.transpose() * local, pick.pdf * self.per_solid_angle(cell[1]))
     }
 
     fn pdf(&self, direction: Vec3) -> f32 {
@@ -141,6 +156,11 @@ impl ImageSky {
     fn size(&self) -> Vec2 {
         Vec2::new(self.image.width() as f32, self.image.height() as f32)
     }
+}
+
+/// Mean of the lanes that count.
+fn mean(light: [f64; 4], lanes: usize) -> f32 {
+    (light[..lanes].iter().sum::<f64>() / lanes as f64) as f32
 }
 
 /// The rotation or reflection nearest to a placement that keeps the direction of its y axis.

@@ -1,10 +1,10 @@
 //! A mesh that shines, sampled by area.
 
 use super::surface::{ShiningSides, SurfaceEmission};
-use super::{DirectSample, EmissionPdf, EmissionSample};
-use hyaline_geometry::SurfaceHit;
+use super::{Cone, DirectSample, EmissionPdf, EmissionSample, UnitBox};
 use hyaline_geometry::mesh::MeshSampler;
-use hyaline_math::{Vec2, Vec3};
+use hyaline_geometry::{AreaSample, SurfaceHit};
+use hyaline_math::{Frame, Vec2, Vec3};
 use hyaline_spectrum::Spectrum;
 
 /// Diffuse light from all faces of a mesh.
@@ -33,7 +33,24 @@ impl MeshLight {
     }
 
     pub(super) fn sample_emission(&self, u_position: Vec2, u_direction: Vec2) -> Option<EmissionSample> {
-        self.emission.emission(&self.sampler.sample(u_position), u_direction)
+        let sample = self.sampler.sample(u_position);
+        self.emission.emission(&sample, &Frame::from_normal(sample.n), u_direction)
+    }
+
+    pub(super) fn emission_at(&self, sample: &AreaSample, frame: &Frame, u: Vec2) -> Option<EmissionSample> {
+        self.emission.emission(sample, frame, u)
+    }
+
+    pub(super) fn cone_at(&self, frame: &Frame, unit_box: &UnitBox) -> Cone {
+        self.emission.cone(frame, unit_box)
+    }
+
+    /// A point of one face, uniform by area; its density is that of all points of the mesh.
+    ///
+    /// # Panics
+    /// Where there is no such face.
+    pub fn sample_face(&self, face: u32, u: Vec2) -> AreaSample {
+        self.sampler.sample_face(face, u)
     }
 
     pub(super) fn pdf_emission(&self, n: Vec3, direction: Vec3) -> EmissionPdf {

@@ -4,6 +4,7 @@
 //! what `sample_direct` gives in the same direction, and `pdf_direct` is the density of `sample_direct`, so that the
 //! two can be weighed against each other.
 
+mod cone;
 mod directional;
 mod environment;
 mod media;
@@ -19,8 +20,9 @@ mod surface;
 #[cfg(test)]
 mod tests;
 
+pub use cone::{Cone, DiscPatch, UnitBox};
 pub use directional::DirectionalLight;
-pub use environment::EnvironmentLight;
+pub use environment::{EnvironmentLight, RestrictedSky, SkyDirection};
 pub use media::LightMedia;
 pub use mesh::MeshLight;
 pub use point::PointLight;
@@ -31,8 +33,8 @@ pub use sky_image::SkyImage;
 pub use spot::SpotLight;
 pub use surface::ShiningSides;
 
-use hyaline_geometry::SurfaceHit;
-use hyaline_math::{Vec2, Vec3};
+use hyaline_geometry::{AreaSample, SurfaceHit};
+use hyaline_math::{Frame, Vec2, Vec3};
 use hyaline_spectrum::Spectrum;
 
 /// A light of any kind.
@@ -146,6 +148,68 @@ impl Light {
             Self::Shape(light) => light.pdf_emission(n, direction),
             Self::Mesh(light) => light.pdf_emission(n, direction),
             Self::Environment(light) => light.pdf_emission(direction),
+        }
+    }
+
+    /// Starts light at a place of the light's surface, in a direction chosen by the cosine.
+    ///
+    /// - `sample`: the place, and the density at which it was chosen from the whole surface.
+    /// - `frame`: about the place's outward normal.
+    /// - `u`: two uniform random numbers in [0, 1).
+    ///
+    /// `sample_emission` does this at places of its own choice. Returns `None` for lights without a surface.
+    pub fn emission_at(&self, sample: &AreaSample, frame: &Frame, u: Vec2) -> Option<EmissionSample> {
+        match self {
+            Self::Shape(light) => light.emission_at(sample, frame, u),
+            Self::Mesh(light) => light.emission_at(sample, frame, u),
+            Self::Point(_) | Self::Spot(_) | Self::Directional(_) | Self::Environment(_) => None,
+        }
+    }
+
+    /// About all directions that `emission_at` gives random numbers in a box; all directions for lights without a
+    /// surface.
+    pub fn cone_at(&self, frame: &Frame, unit_box: &UnitBox) -> Cone {
+        match self {
+            Self::Shape(light) => light.cone_at(frame, unit_box),
+            Self::Mesh(light) => light.cone_at(frame, unit_box),
+            Self::Point(_) | Self::Spot(_) | Self::Directional(_) | Self::Environment(_) => Cone::ALL,
+        }
+    }
+
+    /// The point that all light starts from; `None` for lights that are no point.
+    pub fn position(&self) -> Option<Vec3> {
+        match self {
+            Self::Point(light) => Some(light.position),
+            Self::Spot(light) => Some(light.position()),
+            Self::Directional(_) | Self::Shape(_) | Self::Mesh(_) | Self::Environment(_) => None,
+        }
+    }
+
+    /// About all directions that `sample_emission` of a light that is a point gives a box of `u_direction`; all
+    /// directions for other lights.
+    pub fn cone_of_emission(&self, unit_box: &UnitBox) -> Cone {
+        match self {
+            Self::Point(_) => PointLight::cone_of_emission(unit_box),
+            Self::Spot(light) => light.cone_of_emission(unit_box),
+            Self::Directional(_) | Self::Shape(_) | Self::Mesh(_) | Self::Environment(_) => Cone::ALL,
+        }
+    }
+
+    /// What a light that is a point sends in a direction, W sr⁻¹; 0 for other lights.
+    pub fn intensity(&self, direction: Vec3) -> Spectrum {
+        match self {
+            Self::Point(light) => light.intensity,
+            Self::Spot(light) => light.intensity_toward(direction),
+            Self::Directional(_) | Self::Shape(_) | Self::Mesh(_) | Self::Environment(_) => Spectrum::ZERO,
+        }
+    }
+
+    /// Solid angle that a light that is a point shines into, sr; 0 for other lights.
+    pub fn solid_angle(&self) -> f32 {
+        match self {
+            Self::Point(_) => 4.0 * std::f32::consts::PI,
+            Self::Spot(light) => light.solid_angle(),
+            Self::Directional(_) | Self::Shape(_) | Self::Mesh(_) | Self::Environment(_) => 0.0,
         }
     }
 

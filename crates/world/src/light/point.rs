@@ -1,7 +1,7 @@
 //! A point that shines alike in all directions.
 
-use super::{DirectSample, EmissionPdf, EmissionSample};
-use hyaline_math::{Vec2, Vec3};
+use super::{Cone, DirectSample, EmissionPdf, EmissionSample, UnitBox};
+use hyaline_math::{Frame, Vec2, Vec3};
 use hyaline_sampling::warp;
 use hyaline_spectrum::Spectrum;
 use std::f32::consts::PI;
@@ -36,6 +36,11 @@ impl PointLight {
 
     pub(super) fn pdf_emission() -> EmissionPdf {
         EmissionPdf { position: 1.0, direction: 0.25 / PI }
+    }
+
+    pub(super) fn cone_of_emission(unit_box: &UnitBox) -> Cone {
+        let world = Frame { s: Vec3::X, t: Vec3::Y, n: Vec3::Z };
+        Cone::about_turned(&world, [2.0 * unit_box.min.x, 2.0 * unit_box.max.x], unit_box)
     }
 
     pub(super) fn power(&self) -> Spectrum {

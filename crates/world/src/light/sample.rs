@@ -1,6 +1,6 @@
 //! What sampling a light gives: a direction to it, or a ray from it.
 
-use hyaline_math::{Bounds, Vec2, Vec3};
+use hyaline_math::{Bounds, Frame, Vec2, Vec3};
 use hyaline_sampling::warp;
 use hyaline_spectrum::Spectrum;
 use std::f32::consts::PI;
@@ -82,15 +82,21 @@ impl SceneSphere {
     }
 
     /// Area of the disc that covers the ball, m².
-    pub(super) fn disc_area(&self) -> f32 {
+    pub fn disc_area(&self) -> f32 {
         PI * self.radius * self.radius
     }
 
     /// A uniform point of the disc that touches the ball where light of this direction comes from.
     pub(super) fn sample_disc(&self, direction: Vec3, u: Vec2) -> Vec3 {
-        let frame = hyaline_math::Frame::from_normal(direction);
+        self.point_of_disc(&Frame::from_normal(direction), u)
+    }
+
+    /// The same point in a frame about the direction of the light.
+    ///
+    /// - `u`: two uniform random numbers in [0, 1).
+    pub fn point_of_disc(&self, frame: &Frame, u: Vec2) -> Vec3 {
         let q = warp::sample_disc(u) * self.radius;
-        self.center - direction * self.radius + frame.s * q.x + frame.t * q.y
+        self.center - frame.n * self.radius + frame.s * q.x + frame.t * q.y
     }
 
     /// Density of `sample_disc`, m⁻²; 0 for an empty ball.

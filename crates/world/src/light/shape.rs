@@ -5,9 +5,9 @@
 
 use super::sphere::SphereDirections;
 use super::surface::{ShiningSides, SurfaceEmission};
-use super::{DirectSample, EmissionPdf, EmissionSample, LightPoint};
-use hyaline_geometry::{Primitive, Shape, SurfaceHit};
-use hyaline_math::{DMat3, DVec2, DVec3, Mat3, Transform, Vec2, Vec3, float::gamma};
+use super::{Cone, DirectSample, EmissionPdf, EmissionSample, LightPoint, UnitBox};
+use hyaline_geometry::{AreaSample, Primitive, Shape, SurfaceHit};
+use hyaline_math::{DMat3, DVec2, DVec3, Frame, Mat3, Transform, Vec2, Vec3, float::gamma};
 use hyaline_sampling::SphericalRectangle;
 use hyaline_spectrum::Spectrum;
 
@@ -78,7 +78,16 @@ impl ShapeLight {
     }
 
     pub(super) fn sample_emission(&self, u_position: Vec2, u_direction: Vec2) -> Option<EmissionSample> {
-        self.emission.emission(&self.primitive.sample_area(u_position), u_direction)
+        let sample = self.primitive.sample_area(u_position);
+        self.emission.emission(&sample, &Frame::from_normal(sample.n), u_direction)
+    }
+
+    pub(super) fn emission_at(&self, sample: &AreaSample, frame: &Frame, u: Vec2) -> Option<EmissionSample> {
+        self.emission.emission(sample, frame, u)
+    }
+
+    pub(super) fn cone_at(&self, frame: &Frame, unit_box: &UnitBox) -> Cone {
+        self.emission.cone(frame, unit_box)
     }
 
     pub(super) fn pdf_emission(&self, n: Vec3, direction: Vec3) -> EmissionPdf {

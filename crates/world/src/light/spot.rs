@@ -4,7 +4,7 @@
 //! cones, where the cosine has none.
 
 use super::point::from_point;
-use super::{DirectSample, EmissionPdf, EmissionSample};
+use super::{Cone, DirectSample, EmissionPdf, EmissionSample, UnitBox};
 use hyaline_math::{Frame, Vec2, Vec3, float};
 use hyaline_scene::SpotFalloff;
 use hyaline_spectrum::Spectrum;
@@ -60,7 +60,27 @@ impl SpotLight {
     }
 
     pub(super) fn sample_direct(&self, p: Vec3) -> Option<DirectSample> {
-        from_point(self.position, p, |direction| self.intensity * self.factor(self.h_of(direction)))
+        from_point(self.position, p, |direction| self.intensity_toward(direction))
+    }
+
+    pub(super) fn position(&self) -> Vec3 {
+        self.position
+    }
+
+    /// Intensity in a direction, unit.
+    pub(super) fn intensity_toward(&self, direction: Vec3) -> Spectrum {
+        self.intensity * self.factor(self.h_of(direction))
+    }
+
+    /// Of the outer cone, sr.
+    pub(super) fn solid_angle(&self) -> f32 {
+        TAU * self.outer.h
+    }
+
+    /// About the directions of `sample_emission`.
+    pub(super) fn cone_of_emission(&self, unit_box: &UnitBox) -> Cone {
+        let h = [unit_box.min.x, unit_box.max.x].map(|u| f64::from(self.sample_h(u as f32)));
+        Cone::about_turned(&self.frame, h, unit_box)
     }
 
     pub(super) fn sample_emission(&self, u: Vec2) -> Option<EmissionSample> {

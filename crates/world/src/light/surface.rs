@@ -1,8 +1,8 @@
 //! What all lights with a surface have in common: the same radiance everywhere and in all directions of a side.
 
-use super::{DirectSample, EmissionSample, LightPoint};
+use super::{Cone, DirectSample, EmissionSample, LightPoint, UnitBox};
 use hyaline_geometry::AreaSample;
-use hyaline_math::{Frame, Vec2, Vec3, float::ONE_MINUS_EPSILON};
+use hyaline_math::{DVec2, Frame, Vec2, Vec3, float::ONE_MINUS_EPSILON};
 use hyaline_sampling::warp;
 use hyaline_spectrum::Spectrum;
 use std::f32::consts::PI;
@@ -73,10 +73,12 @@ impl SurfaceEmission {
     }
 
     /// Light that starts at a point chosen by area, in a direction chosen by the cosine.
-    pub(super) fn emission(&self, sample: &AreaSample, u: Vec2) -> Option<EmissionSample> {
+    ///
+    /// - `frame`: about the outward normal.
+    pub(super) fn emission(&self, sample: &AreaSample, frame: &Frame, u: Vec2) -> Option<EmissionSample> {
         let (side, u) = self.choose_side(u);
         let local = warp::sample_cosine_hemisphere(u);
-        let direction = Frame::from_normal(sample.n * side).to_world(local);
+        let direction = frame.to_world(Vec3::new(local.x, local.y, side * local.z));
         let pdf_direction = self.pdf_of_direction(sample.n, direction);
         (pdf_direction > 0.0).then(|| EmissionSample {
             origin: sample.p,
@@ -89,6 +91,20 @@ impl SurfaceEmission {
             is_delta_position: false,
             is_delta_direction: false,
         })
+    }
+
+    /// About the directions of `emission` for random numbers in a box.
+    pub(super) fn cone(&self, frame: &Frame, unit_box: &UnitBox) -> Cone {
+        let half = |from: f64| {
+            let stretched = |u: DVec2| DVec2::new(2.0 * u.x - from, u.y);
+            UnitBox { min: stretched(unit_box.min), max: stretched(unit_box.max) }
+        };
+        match self.sides {
+            ShiningSides::Outer => Cone::about_cosine(frame, 1.0, unit_box),
+            ShiningSides::Both if unit_box.max.x <= 0.5 => Cone::about_cosine(frame, 1.0, &half(0.0)),
+            ShiningSides::Both if unit_box.min.x >= 0.5 => Cone::about_cosine(frame, -1.0, &half(1.0)),
+            ShiningSides::Both => Cone::ALL,
+        }
     }
 
     /// Density of the direction of `emission` at a place with the outward normal `n`, sr⁻¹.

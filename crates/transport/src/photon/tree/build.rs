@@ -5,6 +5,8 @@
 
 use super::PointTree;
 use super::layout::{FAN, Node, PACKET, Packet};
+use super::simd::VerifiedLevel;
+use hyaline_geometry::bvh::SimdLevel;
 use hyaline_math::{Bounds, Vec3};
 use rayon::prelude::*;
 
@@ -24,7 +26,8 @@ pub(super) fn build<T: Copy + Send + Sync>(mut points: Vec<(Vec3, T)>, leaf_size
     let levels = build_levels(&packets, leaf_packets);
     let bounds = levels.last().map_or(Bounds::EMPTY, |top| top[0].bounds());
     let (nodes, first_leaf) = join_levels(levels);
-    PointTree { packets, payloads, nodes, first_leaf, leaf_packets: leaf_packets as u32, bounds }
+    let level = VerifiedLevel::new(SimdLevel::detect());
+    PointTree { packets, payloads, nodes, first_leaf, leaf_packets: leaf_packets as u32, bounds, level }
 }
 
 /// Orders points so that leaves, and all nodes above them, are ranges.

@@ -16,14 +16,19 @@ mod build;
 mod layout;
 mod nearest;
 mod query;
+mod region;
+mod simd;
 #[cfg(test)]
 mod tests;
 
 pub use nearest::Nearest;
-pub use query::{Disc, Region};
+pub use query::{Accept, All};
+pub use region::{Disc, Region};
 
+use hyaline_geometry::bvh::SimdLevel;
 use hyaline_math::{Bounds, Vec3};
 use layout::{Node, PACKET, Packet};
+use simd::VerifiedLevel;
 
 /// Points with something of type `T` at each, in the order of the tree: what is near has indices that are near.
 #[derive(Clone, Debug)]
@@ -36,6 +41,7 @@ pub struct PointTree<T> {
     /// Packets in a leaf.
     leaf_packets: u32,
     bounds: Bounds,
+    level: VerifiedLevel,
 }
 
 impl<T: Copy + Send + Sync> PointTree<T> {
@@ -48,6 +54,12 @@ impl<T: Copy + Send + Sync> PointTree<T> {
     /// With more than 2³² - 1 points.
     pub fn build(points: Vec<(Vec3, T)>, leaf_size: u32) -> Self {
         build::build(points, leaf_size)
+    }
+
+    /// The same tree, queried with other instructions; a level that the processor lacks becomes the best one.
+    pub fn with_simd_level(mut self, level: SimdLevel) -> Self {
+        self.level = VerifiedLevel::new(level);
+        self
     }
 
     /// Number of points.

@@ -1,159 +1,188 @@
-//! Queries: where they look, and how they descend.
+//! How queries descend the tree: the children of a node by one test, nearest first where that matters.
 
 use super::PointTree;
-use super::layout::{FAN, Node, PACKET, Packet};
+use super::layout::{FAN, PACKET, Packet};
 use super::nearest::Nearest;
-use hyaline_math::Vec3;
+use super::region::{Probe, Region};
+use super::simd::{Distances, Lanes, Query, prefetch};
 
-/// Where a query looks: a ball, or a disc.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Region {
-    /// Center.
-    pub center: Vec3,
-    /// Radius, scene units, ≥ 0; may be infinite. What lies on the edge is inside.
-    pub radius: f32,
-    /// What makes a disc of the ball.
-    pub disc: Option<Disc>,
+/// Most nodes that wait: trees have at most 10 levels, and of each all children but the one being looked at can wait.
+const STACK_SIZE: usize = 10 * FAN;
+
+/// The mask of a packet that is inside as a whole.
+const ALL_LANES: u32 = (1 << PACKET) - 1;
+
+/// Whether a point counts.
+pub trait Accept {
+    /// Whether all points count, so that none needs to be asked for.
+    const TAKES_ALL: bool = false;
+
+    /// Whether point `i` counts.
+    fn takes(&self, i: u32) -> bool;
 }
 
-/// A disc: the part of a ball close to a plane through its center.
-///
-/// Its proportions are fixed, and what is nearest is found by growing it: the distance of a point is the radius of the
-/// smallest disc that holds it, the larger of its distance from the center and of that from the plane over `thickness`.
-/// So the disc through the k-th photon rejects, by its own size, what a disc of the largest radius would let in.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Disc {
-    /// Normal of the plane, unit.
-    pub normal: Vec3,
-    /// Half its thickness as a fraction of its radius, 0…1; less than 1/1000 is taken for that, as surfaces are not
-    /// known better.
-    pub thickness: f32,
+impl<F: Fn(u32) -> bool> Accept for F {
+    #[inline(always)]
+    fn takes(&self, i: u32) -> bool {
+        self(i)
+    }
 }
 
-/// Least thickness of a disc.
-const MIN_THICKNESS: f32 = 1e-3;
-
-/// What distances are measured from.
+/// All points count.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Probe {
-    pub(super) center: [f32; 3],
-    /// Normal of the disc over its thickness.
-    pub(super) normal: [f32; 3],
-    pub(super) is_disc: bool,
-    /// Squared distances below this are inside.
-    pub(super) limit: f32,
-}
+pub struct All;
 
-impl Probe {
-    /// `None` where nothing can be inside.
-    fn new(region: &Region) -> Option<Self> {
-        if !(region.center.is_finite() && region.radius >= 0.0) {
-            return None;
-        }
-        let normal =
-            region.disc.map_or(Vec3::ZERO, |disc| disc.normal / disc.thickness.clamp(MIN_THICKNESS, 1.0));
-        let limit = (region.radius * region.radius).next_up();
-        let is_disc = region.disc.is_some();
-        Some(Self { center: region.center.to_array(), normal: normal.to_array(), is_disc, limit })
-    }
+impl Accept for All {
+    const TAKES_ALL: bool = true;
 
-    /// Squared distances of the boxes of a node.
     #[inline(always)]
-    fn box_distances(&self, node: &Node) -> [f32; FAN] {
-        let mut sums = [0.0; FAN];
-        for axis in 0..3 {
-            for slot in 0..FAN {
-                let below = node.min[axis][slot] - self.center[axis];
-                let above = self.center[axis] - node.max[axis][slot];
-                let distance = below.max(above).max(0.0);
-                sums[slot] += distance * distance;
-            }
-        }
-        sums
-    }
-
-    /// Squared distances of the points of a packet.
-    #[inline(always)]
-    fn point_distances(&self, packet: &Packet) -> [f32; PACKET] {
-        let mut sums = [0.0; PACKET];
-        let mut heights = [0.0; PACKET];
-        for axis in 0..3 {
-            for lane in 0..PACKET {
-                let offset = packet.0[axis][lane] - self.center[axis];
-                sums[lane] += offset * offset;
-                heights[lane] += offset * self.normal[axis];
-            }
-        }
-        if self.is_disc {
-            for lane in 0..PACKET {
-                sums[lane] = sums[lane].max(heights[lane] * heights[lane]);
-            }
-        }
-        sums
+    fn takes(&self, _: u32) -> bool {
+        true
     }
 }
 
 impl<T: Copy + Send + Sync> PointTree<T> {
-    /// Visits all points of a region, with their squared distances.
+    /// Visits all points of a region, with their indices and squared distances.
     pub fn within(&self, region: &Region, visit: &mut impl FnMut(u32, f32)) {
-        let Some(probe) = Probe::new(region) else { return };
-        let mut stack = vec![0_u32; usize::from(!self.nodes.is_empty())];
-        while let Some(id) = stack.pop() {
-            if id < self.first_leaf {
-                let distances = probe.box_distances(&self.nodes[id as usize]);
-                for slot in (0..FAN).filter(|&slot| distances[slot] < probe.limit) {
-                    stack.push(id * FAN as u32 + 1 + slot as u32);
-                }
-                continue;
-            }
-            for (packet, first) in self.leaf(id) {
-                let distances = probe.point_distances(packet);
-                for lane in (0..PACKET).filter(|&lane| distances[lane] < probe.limit) {
-                    visit(first + lane as u32, distances[lane]);
-                }
-            }
+        if let Some(probe) = Probe::new(region).filter(|_| !self.is_empty()) {
+            self.level.run(Within { tree: self, probe, visit });
         }
     }
 
-    /// Finds the `k` nearest points of a region among those that `accept` takes; fewer where there are not as many.
+    /// Finds the `k` nearest points of a region among those that count; fewer where there are not as many.
     ///
     /// Of points at one and the same distance it is open which are taken; it depends on the tree and the region alone.
     ///
+    /// - `accept`: which points count, by index; or [`All`].
     /// - `found`: memory for the answer, which replaces what was in it.
-    pub fn nearest(&self, region: &Region, k: usize, accept: impl Fn(u32) -> bool, found: &mut Nearest) {
+    pub fn nearest(&self, region: &Region, k: usize, accept: impl Accept, found: &mut Nearest) {
         found.begin(k);
-        let Some(mut probe) = Probe::new(region).filter(|_| k > 0 && !self.is_empty()) else { return };
-        let mut stack = vec![(0.0, 0_u32)];
-        while let Some((distance, id)) = stack.pop() {
-            if distance >= probe.limit {
-                continue;
-            }
-            if id < self.first_leaf {
-                let distances = probe.box_distances(&self.nodes[id as usize]);
-                let start = stack.len();
-                for slot in (0..FAN).filter(|&slot| distances[slot] < probe.limit) {
-                    stack.push((distances[slot], id * FAN as u32 + 1 + slot as u32));
+        if let Some(probe) = Probe::new(region).filter(|_| k > 0 && !self.is_empty()) {
+            self.level.run(FindNearest { tree: self, probe, accept, found });
+        }
+    }
+
+    /// Packets of a leaf, and the index of its first point.
+    #[inline(always)]
+    fn leaf(&self, id: u32) -> (&[Packet], u32) {
+        let first = ((id - self.first_leaf) * self.leaf_packets) as usize;
+        let end = (first + self.leaf_packets as usize).min(self.packets.len());
+        (&self.packets[first..end], (first * PACKET) as u32)
+    }
+}
+
+/// The bits that are set, from the lowest.
+#[inline(always)]
+fn set_bits(mut mask: u32) -> impl Iterator<Item = u32> {
+    std::iter::from_fn(move || {
+        let lane = mask.trailing_zeros();
+        (mask != 0).then(|| mask &= mask - 1).map(|()| lane)
+    })
+}
+
+/// See [`PointTree::within`].
+struct Within<'a, T, V> {
+    tree: &'a PointTree<T>,
+    probe: Probe,
+    visit: &'a mut V,
+}
+
+impl<T: Copy + Send + Sync, V: FnMut(u32, f32)> Query for Within<'_, T, V> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<L: Lanes>(self, lanes: L) {
+        let Self { tree, probe, visit } = self;
+        let limit = probe.limit;
+        let mut stack = [0; STACK_SIZE];
+        let mut waiting = 1;
+        while waiting > 0 {
+            waiting -= 1;
+            let id: u32 = stack[waiting];
+            let (_, mask) = lanes.box_distances(&probe, &tree.nodes[id as usize], limit);
+            let first_child = id * FAN as u32 + 1;
+            if first_child < tree.first_leaf {
+                for slot in set_bits(mask) {
+                    stack[waiting] = first_child + slot;
+                    waiting += 1;
                 }
-                stack[start..].sort_unstable_by(|a, b| b.0.total_cmp(&a.0).then(b.1.cmp(&a.1)));
                 continue;
             }
-            for (packet, first) in self.leaf(id) {
-                let distances = probe.point_distances(packet);
-                for lane in (0..PACKET).filter(|&lane| distances[lane] < probe.limit) {
-                    if accept(first + lane as u32) {
-                        found.push(distances[lane], first + lane as u32);
+            for slot in set_bits(mask) {
+                prefetch(tree.leaf(first_child + slot).0);
+            }
+            for slot in set_bits(mask) {
+                let (packets, first) = tree.leaf(first_child + slot);
+                for (packet, first) in packets.iter().zip((first..).step_by(PACKET)) {
+                    let (Distances(distances), mask) = lanes.point_distances(&probe, packet, limit);
+                    if mask == ALL_LANES {
+                        // Deep inside a region this is the rule, and needs no search for bits.
+                        for (i, distance) in (first..).zip(distances) {
+                            visit(i, distance);
+                        }
+                        continue;
+                    }
+                    for lane in set_bits(mask) {
+                        visit(first + lane, distances[lane as usize]);
                     }
                 }
             }
-            found.tighten(&mut probe.limit);
         }
-        found.finish();
     }
+}
 
-    /// Packets of a leaf, and the index of the first point in each.
-    fn leaf(&self, id: u32) -> impl Iterator<Item = (&Packet, u32)> {
-        let first = ((id - self.first_leaf) * self.leaf_packets) as usize;
-        let end = (first + self.leaf_packets as usize).min(self.packets.len());
-        self.packets[first..end].iter().zip((first * PACKET..).step_by(PACKET).map(|i| i as u32))
+/// See [`PointTree::nearest`].
+struct FindNearest<'a, T, A> {
+    tree: &'a PointTree<T>,
+    probe: Probe,
+    accept: A,
+    found: &'a mut Nearest,
+}
+
+impl<T: Copy + Send + Sync, A: Accept> Query for FindNearest<'_, T, A> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<L: Lanes>(self, lanes: L) {
+        let Self { tree, probe, accept, found } = self;
+        let mut limit = probe.limit;
+        // A squared distance above the node's index: the order of these numbers is that of the distances.
+        let mut stack = [0_u64; STACK_SIZE];
+        let mut waiting = 1;
+        while waiting > 0 {
+            waiting -= 1;
+            let (distance, id) = (f32::from_bits((stack[waiting] >> 32) as u32), stack[waiting] as u32);
+            if distance >= limit {
+                continue;
+            }
+            if id >= tree.first_leaf {
+                let (packets, first) = tree.leaf(id);
+                for (packet, first) in packets.iter().zip((first..).step_by(PACKET)) {
+                    let (distances, mut mask) = lanes.point_distances(&probe, packet, limit);
+                    if !A::TAKES_ALL {
+                        for lane in set_bits(mask) {
+                            mask &= !(u32::from(!accept.takes(first + lane)) << lane);
+                        }
+                    }
+                    found.push(lanes, &distances, mask, first);
+                }
+                limit = found.tighten(lanes, limit);
+                continue;
+            }
+            let (distances, mask) = lanes.box_distances(&probe, &tree.nodes[id as usize], limit);
+            let start = waiting;
+            for slot in set_bits(mask) {
+                let child = u64::from(id * FAN as u32 + 1 + slot);
+                let entry = u64::from(distances[slot as usize].to_bits()) << 32 | child;
+                let mut place = waiting;
+                while place > start && stack[place - 1] < entry {
+                    stack[place] = stack[place - 1];
+                    place -= 1;
+                }
+                stack[place] = entry;
+                waiting += 1;
+            }
+        }
+        found.finish(lanes);
     }
 }

@@ -18,7 +18,7 @@ fn nearest_points_are_those_of_brute_force() {
         for k in [1, 10, 50] {
             let center = Vec3::from_array([(); 3].map(|()| random.uniform_f32()));
             let region = Region { center, radius: 0.5, disc: None };
-            tree.nearest(&region, k, |_| true, &mut found);
+            tree.nearest(&region, k, All, &mut found);
             let mut expected: Vec<f32> =
                 list.iter().map(|(p, _)| p.distance_squared(center)).filter(|d| *d <= 0.25).collect();
             expected.sort_by(f32::total_cmp);

@@ -1,0 +1,135 @@
+//! Parts of a mesh: groups of neighboring pieces of faces, and what bounds each.
+//!
+//! A face that is large for its mesh is cut into pieces: boxes of the random numbers that its points are drawn with.
+//! Pieces that lie together then make a cluster.
+
+use super::ball::{Ball, split};
+use super::patch::Patch;
+use hyaline_geometry::Mesh;
+use hyaline_math::float::f64 as float;
+use hyaline_math::{DVec2, DVec3, Transform};
+use hyaline_sampling::warp;
+use hyaline_world::light::{Cone, UnitBox};
+
+/// Pieces along each random number of a face, at most.
+const FINEST: f64 = 64.0;
+
+/// A face or a part of one.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Piece {
+    pub(super) face: u32,
+    /// Which box of the unit square: column and row of `size` each.
+    cell: [u16; 2],
+    size: u16,
+    /// Share of the area of all faces that were cut.
+    pub(super) share: f32,
+}
+
+impl Piece {
+    /// The random numbers that give its points.
+    pub(super) fn unit_box(&self) -> UnitBox {
+        let corner = |i: u16| {
+            let along = |cell: u16| f64::from(cell + i) / f64::from(self.size);
+            DVec2::new(along(self.cell[0]), along(self.cell[1]))
+        };
+        UnitBox { min: corner(0), max: corner(1) }
+    }
+}
+
+/// Pieces that lie together.
+pub(super) struct Cluster {
+    pub(super) pieces: Vec<Piece>,
+    pub(super) patch: Patch,
+}
+
+/// Cuts some faces of a mesh into at most `count` clusters of about the same number of pieces.
+pub(super) fn cut(mesh: &Mesh, transform: Option<&Transform>, faces: Vec<u32>, count: u32) -> Vec<Cluster> {
+    let placed = Placed { mesh, transform };
+    let mut pieces: Vec<(Piece, DVec3)> = placed
+        .pieces(&faces, count)
+        .into_iter()
+        .map(|piece| (piece, placed.corners(&piece).iter().sum::<DVec3>() * 0.25))
+        .collect();
+    let mut clusters = Vec::new();
+    split(&mut pieces, count.max(1) as usize, &mut |&(_, middle)| middle, &mut |group| {
+        if !group.is_empty() {
+            let pieces: Vec<Piece> = group.iter().map(|&(piece, _)| piece).collect();
+            let patch = placed.patch(&pieces);
+            clusters.push(Cluster { pieces, patch });
+        }
+    });
+    clusters
+}
+
+/// A mesh in the world.
+struct Placed<'a> {
+    mesh: &'a Mesh,
+    transform: Option<&'a Transform>,
+}
+
+impl Placed<'_> {
+    fn vertices(&self, face: u32) -> [DVec3; 3] {
+        let vertices = self.mesh.corners(face).map(|p| p.as_dvec3());
+        vertices.map(|p| self.transform.map_or(p, |transform| transform.point(p)))
+    }
+
+    fn doubled_area(&self, face: u32) -> DVec3 {
+        let [a, b, c] = self.vertices(face);
+        (b - a).cross(c - a)
+    }
+
+    /// The pieces of some faces: each of about the same area where the mesh has few faces.
+    fn pieces(&self, faces: &[u32], count: u32) -> Vec<Piece> {
+        let areas: Vec<f64> = faces.iter().map(|&face| self.doubled_area(face).length()).collect();
+        let total: f64 = areas.iter().sum();
+        let mut pieces = Vec::with_capacity(faces.len());
+        for (&face, area) in faces.iter().zip(areas) {
+            let size = (f64::from(count) * area / total).sqrt().round().clamp(1.0, FINEST) as u16;
+            let share = (area / total / f64::from(size).powi(2)) as f32;
+            pieces.extend((0..size).flat_map(|y| (0..size).map(move |x| [x, y])).map(|cell| Piece {
+                face,
+                cell,
+                size,
+                share,
+            }));
+        }
+        pieces
+    }
+
+    /// Points whose convex hull holds a piece: the map from the square is linear on both sides of its diagonal, and
+    /// the diagonal passes boxes from corner to corner.
+    fn corners(&self, piece: &Piece) -> [DVec3; 4] {
+        let [a, b, c] = self.vertices(piece.face);
+        let unit_box = piece.unit_box();
+        [DVec2::ZERO, DVec2::X, DVec2::Y, DVec2::ONE].map(|u| {
+            let weights = warp::sample_triangle(unit_box.at(u).as_vec2()).as_dvec3();
+            b * weights.x + c * weights.y + a * weights.z
+        })
+    }
+
+    /// The outward normal, of the length of twice the face's area.
+    fn normal(&self, face: u32) -> DVec3 {
+        let mirrors = self.transform.is_some_and(|transform| transform.is_mirroring());
+        self.doubled_area(face) * if mirrors { -1.0 } else { 1.0 }
+    }
+
+    fn patch(&self, pieces: &[Piece]) -> Patch {
+        let corners = || pieces.iter().flat_map(|piece| self.corners(piece));
+        let (low, high) = corners()
+            .fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(low, high), p| (low.min(p), high.max(p)));
+        let center = 0.5 * (low + high);
+        let farthest = corners().map(|p| p.distance(center)).fold(0.0, f64::max);
+        Patch { ball: Ball::about(center, farthest), normals: self.normals(pieces) }
+    }
+
+    fn normals(&self, pieces: &[Piece]) -> Cone {
+        let sum: DVec3 = pieces.iter().map(|piece| self.normal(piece.face)).sum();
+        let Some(axis) = sum.try_normalize() else { return Cone::ALL };
+        let angle_to = |piece: &Piece| {
+            let half_chord = 0.5 * self.normal(piece.face).normalize_or(-axis).distance(axis);
+            2.0 * float::asin(half_chord)
+        };
+        // Normals are rounded to `f32` when places are drawn.
+        Cone { axis, half_angle: pieces.iter().map(angle_to).fold(0.0, f64::max) }.widened(1e-6)
+    }
+}
