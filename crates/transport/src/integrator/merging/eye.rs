@@ -1,9 +1,10 @@
 //! Paths from the eye, which gather photons on their way.
 
 use super::footprint::Footprint;
-use super::light::{CausticPhoton, Landed, is_wide};
+use super::light::{self, CausticPhoton, Landed, is_wide};
 use super::weight::{self, SideOfChain};
 use crate::integrator::path;
+use crate::photon::PhotonEmitter;
 use crate::photon::radius::Shrink;
 use crate::photon::tree::{PointTree, Region};
 use crate::walk::{self, Event, Flown, Vertex, VolumeVertex};
@@ -14,7 +15,7 @@ use hyaline_sampling::Sampler;
 use hyaline_scattering::{BsdfSample, MediumSet, Transport};
 use hyaline_spectrum::Spectrum;
 use hyaline_world::camera::PixelSpread;
-use hyaline_world::light::{DirectSample, Light};
+use hyaline_world::light::DirectSample;
 use hyaline_world::{World, mask};
 use std::f32::consts::PI;
 
@@ -22,6 +23,7 @@ use std::f32::consts::PI;
 pub(super) struct Eye<'a> {
     pub(super) world: &'a World,
     pub(super) settings: &'a RenderSettings,
+    pub(super) emitter: &'a PhotonEmitter<'a>,
     pub(super) landed: &'a Landed,
     pub(super) shrink: Shrink,
     pub(super) spread: PixelSpread,
@@ -319,11 +321,10 @@ impl Eye<'_> {
         let hitting = if sample.is_delta { 0.0 } else { pdf / density };
         let merging = match path.receiver {
             Some(receiver) if !is_wide => {
-                let ior = self.world.ior(set.active());
                 let toward_light = SideOfChain {
                     // For lights that no path hits, sampling stands where drawing the direction would.
                     pdf: if sample.is_delta { choice.probability } else { density },
-                    ior,
+                    ior: self.world.ior(set.active()),
                     cos: sample.wi.dot(hit.ng).abs(),
                 };
                 let toward_receiver = SideOfChain {
@@ -332,7 +333,7 @@ impl Eye<'_> {
                     cos: wo.dot(hit.ng).abs(),
                 };
                 let across = weight::across(toward_receiver, toward_light);
-                receiver.ratio * across * emission_of(self.world, choice.index, light, &sample, hit.p, ior)
+                receiver.ratio * across * self.emission_of(choice.index, &sample, set)
             }
             _ => 0.0,
         };
@@ -354,8 +355,7 @@ impl Eye<'_> {
             let chance = self.world.lights.direct().probability(index as usize);
             chance * light.pdf_direct(p, direction, Some(hit)) / pdf
         });
-        let cos = hit.ng.dot(direction).abs();
-        let merging = self.merging(path, index as usize, light, Some(hit.ng), cos);
+        let merging = self.merging(path, index as usize, Some(hit.ng));
         radiance * weight::power(sampling * sampling + merging * merging)
     }
 
@@ -370,7 +370,7 @@ impl Eye<'_> {
                 lights.direct().probability(index as usize) * light.pdf_direct(p, path.ray.direction, None)
                     / pdf
             });
-            let merging = self.merging(path, index as usize, light, None, 1.0);
+            let merging = self.merging(path, index as usize, None);
             let weight = weight::power(sampling * sampling + merging * merging);
             result += light.radiance_of_sky(path.ray.direction) * weight;
         }
@@ -378,31 +378,26 @@ impl Eye<'_> {
     }
 
     /// Density of merging over that of hitting the light that the path has come to.
-    fn merging(&self, path: &Path, index: usize, light: &Light, n: Option<Vec3>, cos: f32) -> f32 {
+    fn merging(&self, path: &Path, index: usize, n: Option<Vec3>) -> f32 {
         match path.receiver {
             Some(receiver) if receiver.chain > 0 => {
-                let chance = self.world.lights.emission().probability(index);
-                let pdf = light.pdf_emission(n.unwrap_or(Vec3::Y), -path.ray.direction);
-                let ior = self.world.ior(path.set.active());
-                receiver.ratio * weight::at_light(chance, pdf.position, pdf.direction, ior, cos)
+                let direction = -path.ray.direction;
+                let density =
+                    light::emission_density(self.world, self.emitter, index, n, direction, &path.set);
+                receiver.ratio * density
             }
             _ => 0.0,
         }
     }
-}
 
-/// The factor of a light that was sampled from `p`.
-fn emission_of(world: &World, index: usize, light: &Light, sample: &DirectSample, p: Vec3, ior: f32) -> f32 {
-    let chance = world.lights.emission().probability(index);
-    let n = sample.target.map(|target| target.n);
-    let pdf = light.pdf_emission(n.unwrap_or(Vec3::Y), -sample.wi);
-    let cos = match (n, sample.is_delta && sample.distance.is_finite()) {
-        (Some(n), _) => n.dot(sample.wi).abs(),
-        // A point: the square of the way stands for the cosine.
-        (None, true) => sample.target.map_or(sample.distance, |target| target.p.distance(p)).powi(2),
-        (None, false) => 1.0,
-    };
-    weight::at_light(chance, pdf.position, pdf.direction, ior, cos)
+    /// The factor of a light that was sampled.
+    fn emission_of(&self, index: usize, sample: &DirectSample, set: &MediumSet) -> f32 {
+        let n = sample.target.map(|target| target.n);
+        let density = light::emission_density(self.world, self.emitter, index, n, -sample.wi, set);
+        let is_point = sample.is_delta && sample.distance.is_finite();
+        // For a point the square of the way stands for the cosine.
+        if is_point { density / (sample.distance * sample.distance) } else { density }
+    }
 }
 
 /// Every photon within a radius.

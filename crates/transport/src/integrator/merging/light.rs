@@ -1,7 +1,9 @@
 //! Photons of a pass: from the lights through polished and nearly polished surfaces to the first wide one.
 
 use super::weight::{self, SideOfChain};
+use crate::direct;
 use crate::photon::tree::PointTree;
+use crate::photon::{PhotonEmitter, PhotonStart};
 use crate::stats::Stats;
 use crate::walk::{self, Event, Flown, Vertex};
 use crate::{RenderSettings, View};
@@ -10,13 +12,14 @@ use hyaline_math::{Ray, Vec2, Vec3, offset_origin};
 use hyaline_sampling::Sampler;
 use hyaline_scattering::{MediumSet, SurfaceBsdf, Transport};
 use hyaline_spectrum::Spectrum;
-use hyaline_world::light::{EmissionSample, Light};
-use hyaline_world::material::Finish;
+use hyaline_world::light::Light;
+use hyaline_world::specular::NEARLY_POLISHED;
 use hyaline_world::{World, mask};
 use rayon::prelude::*;
 
-/// Lobes at least as wide as this (on the scale of GGX) end a chain: photons land there and go no further.
-const WIDE: f32 = 0.3;
+/// Lobes wider than this (on the scale of GGX) end a chain: photons land there and go no further. The emitter aims at
+/// all finishes with narrower ones.
+const WIDE: f32 = NEARLY_POLISHED * NEARLY_POLISHED;
 /// Photons that one task follows; a fixed number, so that the same photons go together for any number of threads.
 const CHUNK: u32 = 2048;
 /// Crossings after which roulette ends even lossless photons now and then, and shading normals are left.
@@ -50,27 +53,18 @@ pub(super) struct Landed {
 
 /// Whether a finish is one that photons land on for good and that eye paths start anew from.
 pub(super) fn is_wide(bsdf: &SurfaceBsdf) -> bool {
-    !bsdf.is_delta() && bsdf.lobe_width() >= WIDE
+    !bsdf.is_delta() && bsdf.lobe_width() > WIDE
 }
 
-/// Photons that a pass sends out.
-pub(super) fn count(world: &World, view: &View) -> u32 {
-    let has_power = world.lights.emission().sample(0.5).is_some();
-    let is_specular = world.items.iter().any(|item| {
-        let slots = item.slot_materials.iter().chain([&item.material]);
-        slots.into_iter().any(|&index| is_specular(&world.materials[index as usize].finish))
-    });
-    if has_power && is_specular { (4 * view.width * view.height).clamp(1 << 16, 1 << 20) } else { 0 }
-}
-
-/// Whether chains can pass a finish.
-fn is_specular(finish: &Finish) -> bool {
-    !matches!(finish, Finish::Matte { .. } | Finish::Phong { .. } | Finish::Black | Finish::PassThrough)
+/// Photons that a pass sends out: none where no light can reach anything polished.
+pub(super) fn count(emitter: &PhotonEmitter<'_>, view: &View) -> u32 {
+    if emitter.fraction() > 0.0 { (2 * view.width * view.height).clamp(1 << 16, 1 << 20) } else { 0 }
 }
 
 /// Sends out the photons of a pass.
 pub(super) fn trace(
     world: &World,
+    emitter: &PhotonEmitter<'_>,
     settings: &RenderSettings,
     pass: u32,
     photons: u32,
@@ -82,7 +76,7 @@ pub(super) fn trace(
             let mut chunk = Chunk::default();
             for photon in index * CHUNK..((index + 1) * CHUNK).min(photons) {
                 let sampler = Sampler::new(settings.sampler, settings.seed, (PHOTON_COLUMN, pass), photon);
-                chunk.follow(world, sampler, 1.0 / photons as f32);
+                chunk.follow(world, emitter, sampler, 1.0 / photons as f32);
             }
             chunk
         })
@@ -110,7 +104,9 @@ struct Chunk {
 struct Photon<'w> {
     light: &'w Light,
     index: usize,
-    start: EmissionSample,
+    start: PhotonStart,
+    /// Whether no path hits the light.
+    is_delta: bool,
     ray: Ray,
     flux: Spectrum,
     /// Polished and nearly polished surfaces that it has met.
@@ -121,8 +117,8 @@ struct Photon<'w> {
 }
 
 impl Chunk {
-    fn follow(&mut self, world: &World, mut sampler: Sampler, share: f32) {
-        let Some((mut photon, mut set)) = start(world, &mut sampler, share) else { return };
+    fn follow(&mut self, world: &World, emitter: &PhotonEmitter<'_>, mut sampler: Sampler, share: f32) {
+        let Some((mut photon, mut set)) = start(world, emitter, &mut sampler, share) else { return };
         let full = photon.flux.max_lane(world.lanes);
         loop {
             let event = if world.has_volumes {
@@ -162,32 +158,38 @@ impl Chunk {
     }
 }
 
-fn start<'w>(world: &'w World, sampler: &mut Sampler, share: f32) -> Option<(Photon<'w>, MediumSet)> {
-    let (u_choice, u_position, u_direction) = (sampler.next_1d(), sampler.next_2d(), sampler.next_2d());
-    let choice = world.lights.emission().sample(u_choice)?;
-    let light = world.lights.get(choice.index);
-    let start = light.sample_emission(u_position, u_direction)?;
-    let origin = match start.n {
-        Some(n) => offset_origin(start.origin, start.p_error, n, start.direction),
-        None => start.origin,
-    };
-    let set = world.emission_set(choice.index as u32, start.n, start.direction).clone();
-    let ior = world.ior(set.active());
-    let cos = start.n.map_or(1.0, |n| n.dot(start.direction).abs());
-    let at_light = weight::at_light(choice.probability, start.pdf_position, start.pdf_direction, ior, cos);
-    let can_be_hit = !start.is_delta_position && !start.is_delta_direction;
-    let others = if can_be_hit { (at_light * at_light).recip() } else { 0.0 };
-    let photon = Photon {
-        light,
-        index: choice.index,
-        start,
-        ray: Ray::new(origin, start.direction),
-        flux: start.weight * (share / choice.probability),
-        chain: 0,
-        others,
-        at_light,
-    };
-    Some((photon, set))
+fn start<'w>(
+    world: &'w World,
+    emitter: &PhotonEmitter<'_>,
+    sampler: &mut Sampler,
+    share: f32,
+) -> Option<(Photon<'w>, MediumSet)> {
+    let start = emitter.emit(sampler)?;
+    let index = start.light as usize;
+    let light = world.lights.get(index);
+    let at_light = emission_density(world, emitter, index, start.n, start.ray.direction, &start.set);
+    let is_delta = direct::is_delta(light);
+    let others = if is_delta { 0.0 } else { (at_light * at_light).recip() };
+    let (set, ray, flux) = (start.set.clone(), start.ray, start.flux * share);
+    Some((Photon { light, index, start, is_delta, ray, flux, chain: 0, others, at_light }, set))
+}
+
+/// The factor of a light, for photons that meet something polished first: those the emitter sends out, and their
+/// density is that of the light over the share of its light that is sent out.
+///
+/// - `direction`: the way the photon travels.
+pub(super) fn emission_density(
+    world: &World,
+    emitter: &PhotonEmitter<'_>,
+    light: usize,
+    n: Option<Vec3>,
+    direction: Vec3,
+    set: &MediumSet,
+) -> f32 {
+    let chance = world.lights.emission().probability(light) / emitter.fraction();
+    let pdf = world.lights.get(light).pdf_emission(n.unwrap_or(Vec3::Y), direction);
+    let cos = n.map_or(1.0, |n| n.dot(direction).abs());
+    weight::at_light(chance, pdf.position, pdf.direction, world.ior(set.active()), cos)
 }
 
 impl Photon<'_> {
@@ -255,10 +257,10 @@ impl Photon<'_> {
         let mut factor = weight::across(toward_receiver, toward_light);
         if self.chain == 0 {
             let chance = world.lights.direct().probability(self.index);
-            if self.start.is_delta_position || self.start.is_delta_direction {
+            if self.is_delta {
                 // No path hits the light: sampling it stands where drawing its direction would.
                 factor *= toward_light.pdf;
-                sampled = chance / (self.at_light * squared_way(&self.start, hit));
+                sampled = chance / (self.at_light * per_cosine(self.light, &self.start, hit));
             } else {
                 let direct = self.light.pdf_direct(hit.p, wo, light_hit(&self.start).as_ref());
                 sampled = chance * direct / (self.at_light * toward_light.pdf);
@@ -268,13 +270,17 @@ impl Photon<'_> {
     }
 }
 
-/// What stands for the cosine at a light that is a point: 1 / d² for the way to it; 1 for parallel light.
-fn squared_way(start: &EmissionSample, hit: &SurfaceHit) -> f32 {
-    if start.is_delta_position { 1.0 / start.origin.distance_squared(hit.p) } else { 1.0 }
+/// What stands for the cosine at a light that no path hits: the inverse square of the way to a point, 1 for parallel
+/// light.
+fn per_cosine(light: &Light, start: &PhotonStart, hit: &SurfaceHit) -> f32 {
+    match light {
+        Light::Directional(_) => 1.0,
+        _ => 1.0 / start.origin.distance_squared(hit.p),
+    }
 }
 
 /// The place on a light where a photon started, as a path would hit it.
-fn light_hit(start: &EmissionSample) -> Option<SurfaceHit> {
+fn light_hit(start: &PhotonStart) -> Option<SurfaceHit> {
     let n = start.n?;
     let (p, p_error) = (start.origin, start.p_error);
     Some(SurfaceHit { t: 0.0, p, p_error, ng: n, n, uv: Vec2::ZERO, dpdu: Vec3::ZERO, item: 0, primitive: 0 })

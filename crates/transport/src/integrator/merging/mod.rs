@@ -22,13 +22,17 @@ mod weight;
 
 use super::per_pixel::camera_sample;
 use super::{Integrator, Pass, Prepared, RenderSettings, View, path};
-use crate::photon::radius;
+use crate::photon::{PhotonEmitter, radius};
 use crate::stats::Stats;
 use eye::Eye;
 use hyaline_film::{PixelSample, Rect};
+use hyaline_scene::ProjectionMaps;
 use hyaline_world::World;
 use light::Landed;
 use std::sync::atomic::AtomicBool;
+
+/// Cells of the projection maps along each axis.
+const PROJECTION_CELLS: u32 = 64;
 
 /// Path tracing and photon merging.
 pub struct MergingIntegrator;
@@ -46,8 +50,9 @@ impl Integrator for MergingIntegrator {
         _cancel: &AtomicBool,
         _stats: &mut Stats,
     ) -> Box<dyn Prepared + 'w> {
-        let photons = light::count(world, view);
-        Box::new(Merging { world, view: *view, settings: *settings, photons })
+        let emitter = PhotonEmitter::new(world, ProjectionMaps::Cells, PROJECTION_CELLS);
+        let photons = light::count(&emitter, view);
+        Box::new(Merging { world, view: *view, settings: *settings, emitter, photons })
     }
 }
 
@@ -56,13 +61,14 @@ struct Merging<'w> {
     world: &'w World,
     view: View,
     settings: RenderSettings,
+    emitter: PhotonEmitter<'w>,
     /// Photons that a pass sends out; none where no light can reach a polished surface.
     photons: u32,
 }
 
 impl Prepared for Merging<'_> {
     fn begin_pass<'a>(&'a self, pass: u32, stats: &mut Stats) -> Box<dyn Pass + 'a> {
-        let landed = light::trace(self.world, &self.settings, pass, self.photons, stats);
+        let landed = light::trace(self.world, &self.emitter, &self.settings, pass, self.photons, stats);
         Box::new(MergingPass { merging: self, pass, landed, shrink: radius::Shrink::of_pass(pass) })
     }
 }
@@ -77,14 +83,14 @@ struct MergingPass<'a> {
 
 impl Pass for MergingPass<'_> {
     fn render_tile(&self, tile: Rect, samples: &mut [PixelSample], stats: &mut Stats) {
-        let Merging { world, view, settings, photons } = self.merging;
+        let Merging { world, view, settings, emitter, photons } = self.merging;
         let spread = world.cameras[view.camera].spread();
         for (pixel, sample) in tile.pixels().zip(samples) {
             camera_sample(world, settings, view, pixel, self.pass, sample, |ray, set, sampler, sample| {
                 if *photons == 0 {
                     return path::radiance(world, settings, ray, set, sampler, stats, Some(sample));
                 }
-                let eye = Eye { world, settings, landed: &self.landed, shrink: self.shrink, spread };
+                let eye = Eye { world, settings, emitter, landed: &self.landed, shrink: self.shrink, spread };
                 eye.radiance(ray, set, sampler, stats, sample)
             });
         }
