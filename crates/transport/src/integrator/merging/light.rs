@@ -13,7 +13,7 @@ use hyaline_sampling::Sampler;
 use hyaline_scattering::{MediumSet, SurfaceBsdf, Transport};
 use hyaline_spectrum::Spectrum;
 use hyaline_world::light::Light;
-use hyaline_world::specular::NEARLY_POLISHED;
+use hyaline_world::NEARLY_POLISHED;
 use hyaline_world::{World, mask};
 use rayon::prelude::*;
 
