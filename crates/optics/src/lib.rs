@@ -1,4 +1,4 @@
-//! The laws of light at boundaries and in clear media, as pure functions.
+//! The laws of light at boundaries and in media, as pure functions.
 //!
 //! Each law is written once, here. Directions point away from the surface; `eta` is the index of the far side over
 //! that of the side the ray arrives from.
@@ -8,6 +8,7 @@ pub mod diffuse_fresnel;
 pub mod dispersion;
 pub mod fresnel;
 pub mod microfacet;
+pub mod phase;
 pub mod refraction;
 
 pub use attenuation::{sigma_from_color_at_distance, sigma_from_filter, transmittance};

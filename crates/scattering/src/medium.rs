@@ -1,6 +1,9 @@
 //! A medium: everything about a volume, and nothing about its boundary.
 
+use crate::phase::Phase;
+use crate::volume::Grid;
 use hyaline_spectrum::Spectrum;
+use std::sync::Arc;
 
 /// Index of a medium in the world's list of media.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -13,17 +16,21 @@ impl MediumId {
     }
 }
 
-/// A homogeneous medium.
-#[derive(Clone, Copy, Debug, PartialEq)]
+/// A medium: the same everywhere, or as dense as a grid says.
+#[derive(Clone, Debug, PartialEq)]
 pub struct Medium {
     /// Index of refraction, > 0; 1 is vacuum, and air is taken for it.
     pub ior: f32,
-    /// Absorption coefficient, 1 / scene unit, ≥ 0.
+    /// Absorption coefficient where the density is 1, 1 / scene unit, ≥ 0.
     pub sigma_a: Spectrum,
-    /// Scattering coefficient, 1 / scene unit, ≥ 0.
+    /// Scattering coefficient where the density is 1, 1 / scene unit, ≥ 0.
     pub sigma_s: Spectrum,
-    /// Mean cosine of the scattering angle, -1…1; positive scatters forward.
-    pub g: f32,
+    /// Where scattered light goes.
+    pub phase: Phase,
+    /// Light that it sends out by itself where the density is 1, W sr⁻¹ m⁻³.
+    pub emission: Spectrum,
+    /// Where it is how dense; `None` is density 1 everywhere.
+    pub grid: Option<Arc<Grid>>,
 }
 
 impl Medium {
@@ -34,10 +41,17 @@ impl Medium {
     ///
     /// - `ior`: index of refraction, > 0.
     pub const fn clear(ior: f32) -> Self {
-        Self { ior, sigma_a: Spectrum::ZERO, sigma_s: Spectrum::ZERO, g: 0.0 }
+        Self {
+            ior,
+            sigma_a: Spectrum::ZERO,
+            sigma_s: Spectrum::ZERO,
+            phase: Phase::Isotropic,
+            emission: Spectrum::ZERO,
+            grid: None,
+        }
     }
 
-    /// Extinction coefficient, 1 / scene unit.
+    /// Extinction coefficient where the density is 1, 1 / scene unit.
     pub fn sigma_t(&self) -> Spectrum {
         self.sigma_a + self.sigma_s
     }
@@ -47,10 +61,22 @@ impl Medium {
         self.sigma_a.is_zero() && self.sigma_s.is_zero()
     }
 
-    /// Fraction of light, per lane, that is neither absorbed nor scattered.
+    /// Whether it sends out light.
+    pub fn shines(&self) -> bool {
+        !self.emission.is_zero()
+    }
+
+    /// Whether it sends light elsewhere.
+    pub fn scatters(&self) -> bool {
+        !self.sigma_s.is_zero()
+    }
+
+    /// Fraction of light, per lane, that a homogeneous medium neither absorbs nor scatters; see
+    /// [`crate::volume::transmittance`] for those with a grid.
     ///
     /// - `distance`: length of the way, scene units, ≥ 0; may be infinite.
     pub fn transmittance(&self, distance: f32) -> Spectrum {
+        debug_assert!(self.grid.is_none(), "a grid's transmittance depends on the way");
         if self.is_clear() {
             return Spectrum::ONE;
         }

@@ -2,6 +2,7 @@
 
 pub mod direct;
 pub mod first_hit;
+pub mod in_volume;
 pub mod integrator;
 pub mod photon;
 mod roulette;

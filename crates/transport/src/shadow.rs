@@ -10,7 +10,7 @@ use crate::stats::Stats;
 use crate::walk::LONGEST_WALK;
 use hyaline_geometry::SurfaceHit;
 use hyaline_math::{Ray, Vec3, offset_origin};
-use hyaline_scattering::MediumSet;
+use hyaline_scattering::{MediumSet, volume};
 use hyaline_spectrum::Spectrum;
 use hyaline_world::light::DirectSample;
 use hyaline_world::{StraightWay, World, mask};
@@ -20,7 +20,11 @@ const SHORTENING: f32 = 4.0 * f32::EPSILON;
 
 /// The ray from a surface towards a sampled point of a light, ending just before it; endless for a light at infinity.
 pub fn ray_to_light(from: &SurfaceHit, sample: &DirectSample, time: f32) -> Ray {
-    let origin = offset_origin(from.p, from.p_error, from.ng, sample.wi);
+    ray_from(offset_origin(from.p, from.p_error, from.ng, sample.wi), sample, time)
+}
+
+/// The same from a point in the open, on no surface.
+pub fn ray_from(origin: Vec3, sample: &DirectSample, time: f32) -> Ray {
     let Some(target) = &sample.target else {
         return Ray { time, t_max: sample.distance, ..Ray::new(origin, sample.wi) };
     };
@@ -45,7 +49,11 @@ pub fn straight_way(world: &World, ray: &Ray, set: &MediumSet, stats: &mut Stats
         return StraightWay::BLOCKED;
     }
     if !world.has_permeable {
-        return StraightWay::shared(world.media[set.active().index()].transmittance(ray.t_max));
+        return StraightWay::shared(volume::transmittance(
+            &world.media[set.active().index()],
+            ray,
+            ray.t_max,
+        ));
     }
     through_boundaries(world, *ray, set.clone(), stats)
 }
@@ -59,12 +67,12 @@ fn through_boundaries(world: &World, mut ray: Ray, mut set: MediumSet, stats: &m
         let within = set.active();
         let medium = &world.media[within.index()];
         let Some(candidate) = world.geometry.closest(&ray, mask::PATH) else {
-            return result.then(StraightWay::shared(medium.transmittance(ray.t_max)));
+            return result.then(StraightWay::shared(volume::transmittance(medium, &ray, ray.t_max)));
         };
         let (hit, encounter) = world
             .meet(&ray, &candidate, &mut set, mask::PATH, &mut |object| stats.count_never_entered(object));
         result = result
-            .then(StraightWay::shared(medium.transmittance(hit.t)))
+            .then(StraightWay::shared(volume::transmittance(medium, &ray, hit.t)))
             .then(world.straight_way(&ray, &hit, &encounter, within));
         if result.transmittance().is_zero() {
             return result;

@@ -1,12 +1,14 @@
 //! From one place to the next surface that does something: camera paths, photons and mirror rays all walk here.
 //!
 //! Boundaries that are hidden, index matched or mere bounds are crossed on the way; the medium in force between two
-//! crossings filters the light.
+//! crossings filters the light, and may scatter the path or add light of its own.
 
 use crate::stats::Stats;
 use hyaline_geometry::SurfaceHit;
 use hyaline_math::{Ray, Vec3, offset_origin};
-use hyaline_scattering::{MediumSet, ObjectId, SurfaceBsdf};
+use hyaline_sampling::Sampler;
+use hyaline_scattering::volume::{self, Flyer};
+use hyaline_scattering::{Medium, MediumId, MediumSet, ObjectId, SurfaceBsdf};
 use hyaline_spectrum::Spectrum;
 use hyaline_world::{Encounter, World};
 
@@ -85,10 +87,106 @@ impl Vertex {
     }
 }
 
-/// Walks along `ray` to the next surface that does something; `set` is kept true on the way.
+/// What a walk that may scatter ends at.
+#[expect(clippy::large_enum_variant, reason = "a box would be an allocation for every ray")]
+pub enum Flown {
+    /// What a straight walk ends at.
+    Arrived(Event),
+    /// A particle of a medium on the way.
+    Scattered(VolumeVertex),
+}
+
+/// A place within a medium where a path scatters.
+#[derive(Clone, Copy, Debug)]
+pub struct VolumeVertex {
+    /// Where.
+    pub p: Vec3,
+    /// The medium.
+    pub medium: MediumId,
+    /// Factor on the path's throughput: what is left of it on the way here, and what scatters.
+    pub weight: Spectrum,
+    /// Length of the way here, scene units.
+    pub distance: f32,
+}
+
+/// Walks along `ray` to the next surface that does something; `set` is kept true on the way. Media dim the light;
+/// what they scatter is lost.
 ///
 /// - `visible`: mask of the items that the ray sees.
 pub fn advance(world: &World, ray: &Ray, visible: u8, set: &mut MediumSet, stats: &mut Stats) -> Event {
+    match walk(world, ray, visible, set, &mut Dimmed, stats) {
+        Flown::Arrived(event) => event,
+        Flown::Scattered(_) => unreachable!("media that only dim do not scatter"),
+    }
+}
+
+/// Walks along `ray` to the next surface that does something or to the next place where a medium scatters the path.
+///
+/// - `throughput`: what the path carries; lanes that carry much decide where it scatters.
+///
+/// Returns where it ends, and the light that media on the way send out, as it arrives at the ray's origin.
+pub fn fly(
+    world: &World,
+    ray: &Ray,
+    visible: u8,
+    set: &mut MediumSet,
+    throughput: Spectrum,
+    sampler: &mut Sampler,
+    stats: &mut Stats,
+) -> (Flown, Spectrum) {
+    let mut flights = Flights { sampler, throughput, lanes: world.lanes, emitted: Spectrum::ZERO };
+    let flown = walk(world, ray, visible, set, &mut flights, stats);
+    (flown, flights.emitted)
+}
+
+/// What media do to a path between two crossings.
+trait Between {
+    /// Follows the path over `distance` along `ray`; `left` is what of its light has come that far, and is updated.
+    ///
+    /// Returns the distance at which it scatters; `None` where it arrives.
+    fn pass(&mut self, medium: &Medium, ray: &Ray, distance: f32, left: &mut Spectrum) -> Option<f32>;
+}
+
+/// Media dim the light and do nothing else.
+struct Dimmed;
+
+impl Between for Dimmed {
+    fn pass(&mut self, medium: &Medium, ray: &Ray, distance: f32, left: &mut Spectrum) -> Option<f32> {
+        *left *= volume::transmittance(medium, ray, distance);
+        None
+    }
+}
+
+/// Media scatter and shine.
+struct Flights<'a> {
+    sampler: &'a mut Sampler,
+    throughput: Spectrum,
+    lanes: usize,
+    emitted: Spectrum,
+}
+
+impl Between for Flights<'_> {
+    fn pass(&mut self, medium: &Medium, ray: &Ray, distance: f32, left: &mut Spectrum) -> Option<f32> {
+        if !medium.scatters() && !medium.shines() && medium.grid.is_none() {
+            return Dimmed.pass(medium, ray, distance, left);
+        }
+        let flyer =
+            Flyer { throughput: self.throughput * *left, lanes: self.lanes, u: self.sampler.next_2d() };
+        let flight = flyer.fly(medium, ray, distance);
+        self.emitted += *left * flight.emitted;
+        *left *= flight.weight;
+        flight.scatters_at
+    }
+}
+
+fn walk(
+    world: &World,
+    ray: &Ray,
+    visible: u8,
+    set: &mut MediumSet,
+    between: &mut impl Between,
+    stats: &mut Stats,
+) -> Flown {
     let mut ray = *ray;
     let mut transmittance = Spectrum::ONE;
     let mut distance = 0.0;
@@ -96,13 +194,22 @@ pub fn advance(world: &World, ray: &Ray, visible: u8, set: &mut MediumSet, stats
         stats.rays += 1;
         let within = set.active();
         let medium = &world.media[within.index()];
-        let Some(candidate) = world.geometry.closest(&ray, visible) else {
-            transmittance *= medium.transmittance(f32::INFINITY);
-            return Event::Sky { transmittance };
+        let candidate = world.geometry.closest(&ray, visible);
+        let way = candidate.as_ref().map_or(f32::INFINITY, |candidate| candidate.t);
+        if let Some(t) = between.pass(medium, &ray, way, &mut transmittance) {
+            let distance = distance + t;
+            return Flown::Scattered(VolumeVertex {
+                p: ray.at(t),
+                medium: within,
+                weight: transmittance,
+                distance,
+            });
+        }
+        let Some(candidate) = candidate else {
+            return Flown::Arrived(Event::Sky { transmittance });
         };
         let (mut hit, encounter) =
             world.meet(&ray, &candidate, set, visible, &mut |object| stats.count_never_entered(object));
-        transmittance *= medium.transmittance(hit.t);
         distance += hit.t;
         let face = world.face(&ray, &hit, &encounter);
         let Some(straight) = world.straight_through(&face, &hit, &encounter) else {
@@ -110,7 +217,7 @@ pub fn advance(world: &World, ray: &Ray, visible: u8, set: &mut MediumSet, stats
                 hit.n = relief.normal(&world.textures, &hit, &world.geometry.tangents(&hit));
             }
             let item = &world.items[hit.item as usize];
-            return Event::Surface(Vertex {
+            return Flown::Arrived(Event::Surface(Vertex {
                 bsdf: world.surface_bsdf(&face, &ray, &hit, &encounter, within),
                 object: item.object,
                 light: item.light,
@@ -119,12 +226,12 @@ pub fn advance(world: &World, ray: &Ray, visible: u8, set: &mut MediumSet, stats
                 transmittance,
                 distance,
                 encounter,
-            });
+            }));
         };
         transmittance *= straight;
         encounter.commit(world, set);
         ray.origin = offset_origin(hit.p, hit.p_error, hit.ng, ray.direction);
         ray.t_max -= hit.t;
     }
-    Event::Sky { transmittance: Spectrum::ZERO }
+    Flown::Arrived(Event::Sky { transmittance: Spectrum::ZERO })
 }

@@ -53,6 +53,8 @@ pub struct World {
     pub camera_media: Vec<MediumSet>,
     /// Whether shadow rays can pass any boundary straight.
     pub has_permeable: bool,
+    /// Whether any medium scatters, shines or varies in space: then paths are to fly, not only to advance.
+    pub has_volumes: bool,
     /// Lanes of a spectrum that carry something.
     pub lanes: usize,
 }

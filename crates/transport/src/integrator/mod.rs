@@ -1,12 +1,14 @@
 //! What an integrator is: something that prepares, and then renders numbered passes that know nothing of each other.
 
 pub mod debug;
+mod merging;
 mod path;
 mod per_pixel;
 mod photon_map;
 mod whitted;
 
 pub use debug::DebugIntegrator;
+pub use merging::MergingIntegrator;
 pub use path::{PathIntegrator, radiance};
 pub use photon_map::PhotonMapIntegrator;
 pub use whitted::WhittedIntegrator;
@@ -100,13 +102,14 @@ pub trait Pass: Send + Sync {
 }
 
 /// Names of the integrators there are, the default first.
-pub const NAMES: [&str; 4] = ["path", "photon-map", "whitted", "debug"];
+pub const NAMES: [&str; 5] = ["path", "merging", "photon-map", "whitted", "debug"];
 
 /// The integrator of that name.
 pub fn by_name(name: &str) -> Option<Box<dyn Integrator>> {
     match name {
         "path" => Some(Box::new(PathIntegrator)),
         "photon-map" => Some(Box::new(PhotonMapIntegrator)),
+        "merging" => Some(Box::new(MergingIntegrator)),
         "whitted" => Some(Box::new(WhittedIntegrator)),
         "debug" => Some(Box::new(DebugIntegrator)),
         _ => None,

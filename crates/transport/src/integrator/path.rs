@@ -11,9 +11,10 @@ use super::per_pixel::PerPixel;
 use super::{Integrator, Prepared, RenderSettings, View};
 use crate::direct::{self, DirectLight, LastScatter};
 use crate::first_hit;
+use crate::in_volume;
 use crate::roulette::{PATIENCE_WITH_SHADING_NORMALS, eye_survival};
 use crate::stats::Stats;
-use crate::walk::{self, Event};
+use crate::walk::{self, Event, Flown};
 use hyaline_film::PixelSample;
 use hyaline_math::Ray;
 use hyaline_sampling::Sampler;
@@ -62,7 +63,42 @@ pub fn radiance(
     let mut visible = mask::CAMERA;
     let (mut bounces, mut crossings) = (0, 0);
     loop {
-        let mut vertex = match walk::advance(world, &ray, visible, &mut set, stats) {
+        let event = if world.has_volumes {
+            let (flown, emitted) = walk::fly(world, &ray, visible, &mut set, throughput, sampler, stats);
+            result += throughput * emitted;
+            match flown {
+                Flown::Arrived(event) => event,
+                Flown::Scattered(place) => {
+                    first = None;
+                    throughput *= place.weight;
+                    let wo = -ray.direction;
+                    if settings.max_depth.is_none_or(|limit| bounces < limit) {
+                        let light = in_volume::sample_one_light(world, &place, wo, &set, sampler, stats);
+                        result += throughput * light;
+                    }
+                    bounces += 1;
+                    crossings = 0;
+                    let weight = throughput.max_lane(world.lanes) / index_scale;
+                    let roulette = sampler.next_1d();
+                    match eye_survival(weight, bounces, crossings) {
+                        q if roulette >= q => break,
+                        q => throughput *= 1.0 / q,
+                    }
+                    if settings.max_depth.is_some_and(|limit| bounces > limit) {
+                        break;
+                    }
+                    let phase = in_volume::phase_at(world, &place);
+                    let wi = phase.sample(wo, sampler.next_2d());
+                    last.sampled = Some((place.p, phase.value(wo, wi)));
+                    ray = Ray { time: ray.time, ..Ray::new(place.p, wi) };
+                    visible = mask::PATH;
+                    continue;
+                }
+            }
+        } else {
+            walk::advance(world, &ray, visible, &mut set, stats)
+        };
+        let mut vertex = match event {
             Event::Sky { transmittance } => {
                 if !last.is_covered {
                     let light = direct::sky_radiance(world, &ray, last.sampled, visible);

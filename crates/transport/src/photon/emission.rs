@@ -5,7 +5,7 @@
 //! the same flux.
 
 use super::projection::{Departure, Projection};
-use hyaline_math::{Ray, offset_origin};
+use hyaline_math::{Ray, Vec3, offset_origin};
 use hyaline_sampling::Sampler;
 use hyaline_scattering::MediumSet;
 use hyaline_scene::ProjectionMaps;
@@ -22,6 +22,12 @@ pub struct PhotonStart {
     pub flux: Spectrum,
     /// Index of the light.
     pub light: u32,
+    /// The place on the light.
+    pub origin: Vec3,
+    /// Bound on the distance of `origin` from the light's true surface, scene units; 0 without a surface.
+    pub p_error: f32,
+    /// Geometric normal of the light's surface, unit, outward; `None` without a surface.
+    pub n: Option<Vec3>,
     /// What the photon starts in.
     pub set: MediumSet,
 }
@@ -77,8 +83,9 @@ impl<'w> PhotonEmitter<'w> {
 
     fn start(&self, light: u32, departure: &Departure, factor: f32) -> PhotonStart {
         let Departure { origin, p_error, n, direction, flux } = *departure;
-        let origin = n.map_or(origin, |n| offset_origin(origin, p_error, n, direction));
+        let off_surface = n.map_or(origin, |n| offset_origin(origin, p_error, n, direction));
         let set = self.world.emission_set(light, n, direction).clone();
-        PhotonStart { ray: Ray::new(origin, direction), flux: flux * factor, light, set }
+        let ray = Ray::new(off_surface, direction);
+        PhotonStart { ray, flux: flux * factor, light, origin, p_error, n, set }
     }
 }

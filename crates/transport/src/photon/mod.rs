@@ -5,6 +5,7 @@ pub mod gather;
 pub mod kernel;
 pub mod maps;
 mod projection;
+pub mod radius;
 pub mod record;
 pub mod specular;
 pub mod trace;

@@ -3,37 +3,117 @@
 use super::names::nearest;
 use hyaline_optics::attenuation;
 use hyaline_optics::dispersion::{Abbe, Cauchy, IndexModel, Sellmeier};
-use hyaline_scattering::Medium;
-use hyaline_scene::{Absorption, IndexDescription, Located, MediumDescription, Note, Rgb, SceneError};
+use hyaline_scattering::volume::{AlbedoGrid, Grid};
+use hyaline_scattering::{Medium, Phase};
+use hyaline_scene::{
+    Absorption, DensityGrid, GridData, IndexDescription, Located, MediumDescription, PhaseDescription, Rgb,
+    SceneError,
+};
 use hyaline_spectrum::{Spectrum, catalogue};
+use std::sync::Arc;
 
 /// Compiles a medium.
 ///
 /// # Errors
 /// An index name that the catalogue lacks, coefficients that cannot be.
-pub(super) fn compile(
-    description: &Located<MediumDescription>,
-    notes: &mut Vec<Note>,
-) -> Result<Medium, SceneError> {
+pub(super) fn compile(description: &Located<MediumDescription>) -> Result<Medium, SceneError> {
     let ior = index(description)?;
     if !(ior.is_finite() && ior > 0.0) {
         let message = format!("medium '{}' has index of refraction {ior}", description.name);
         return Err(SceneError::at(&description.source, message).with_remedy("give a number above 0"));
     }
     let sigma_a = absorption(description)?;
-    let mut sigma_s = [0.0; 3];
-    if let Some(scattering) = &description.scattering
-        && scattering.sigma_s != [0.0; 3]
-    {
-        sigma_s = scattering.sigma_s;
-        let message = format!(
-            "medium '{}' scatters light; only its extinction is rendered, scattered light is missing",
-            description.name
-        );
-        notes.push(Note::warning(&description.source, message));
+    let sigma_s = description.scattering.as_ref().map_or([0.0; 3], |scattering| scattering.sigma_s);
+    let is_coefficient = |value: &f32| value.is_finite() && *value >= 0.0;
+    for (name, values) in [("sigma_s", sigma_s), ("emission", description.emission)] {
+        if !values.iter().all(is_coefficient) {
+            let message = format!("medium '{}' has {name} = {values:?}", description.name);
+            return Err(
+                SceneError::at(&description.source, message).with_remedy("give numbers of at least 0")
+            );
+        }
     }
-    let g = description.scattering.as_ref().map_or(0.0, |s| s.phase.mean_cosine());
-    Ok(Medium { ior, sigma_a: Spectrum::from_rgb(sigma_a), sigma_s: Spectrum::from_rgb(sigma_s), g })
+    let phase = match &description.scattering {
+        Some(scattering) => phase(description, &scattering.phase)?,
+        None => Phase::Isotropic,
+    };
+    let (sigma_a, sigma_s) = (Spectrum::from_rgb(sigma_a), Spectrum::from_rgb(sigma_s));
+    let emission = Spectrum::from_rgb(description.emission);
+    let grid = description.density.as_ref().map(|density| grid(description, density)).transpose()?;
+    Ok(Medium { ior, sigma_a, sigma_s, phase, emission, grid: grid.map(Arc::new) })
+}
+
+fn phase(description: &Located<MediumDescription>, phase: &PhaseDescription) -> Result<Phase, SceneError> {
+    let check = |g: f32| {
+        if g.abs() < 1.0 {
+            return Ok(g);
+        }
+        let message = format!("medium '{}' has a phase function of mean cosine {g}", description.name);
+        Err(SceneError::at(&description.source, message).with_remedy("give a number between -1 and 1"))
+    };
+    Ok(match *phase {
+        PhaseDescription::Isotropic => Phase::Isotropic,
+        PhaseDescription::HenyeyGreenstein { g } => Phase::HenyeyGreenstein { g: check(g)? },
+        PhaseDescription::Rayleigh => Phase::Rayleigh,
+        PhaseDescription::DoubleHenyeyGreenstein { g1, g2, weight } => {
+            Phase::DoubleHenyeyGreenstein { g: [check(g1)?, check(g2)?], weight: weight.clamp(0.0, 1.0) }
+        }
+    })
+}
+
+fn grid(description: &Located<MediumDescription>, grid: &DensityGrid) -> Result<Grid, SceneError> {
+    check_grid(description, "density", &grid.density, f32::MAX)?;
+    let channels = grid.density.channels as usize;
+    // A colored density counts by its first channel times the coefficients: readers write one channel.
+    let density = grid.density.values.chunks_exact(channels).map(|cell| cell[0]).collect();
+    let albedo = match &grid.albedo {
+        None => None,
+        Some(data) => {
+            check_grid(description, "albedo", data, 1.0)?;
+            Some(AlbedoGrid { size: data.size, values: colors(data) })
+        }
+    };
+    Ok(Grid::new(grid.density.size, density, albedo, &grid.placement))
+}
+
+/// # Errors
+/// The wrong count of values, or one that is no number from 0 to `largest`.
+fn check_grid(
+    description: &Located<MediumDescription>,
+    what: &str,
+    data: &GridData,
+    largest: f32,
+) -> Result<(), SceneError> {
+    let cells: u64 = data.size.iter().map(|&n| u64::from(n)).product();
+    let error = |message: String| {
+        SceneError::at(
+            &description.source,
+            format!("the {what} grid of medium '{}' {message}", description.name),
+        )
+    };
+    let wanted = cells.saturating_mul(u64::from(data.channels));
+    if cells == 0 || !matches!(data.channels, 1 | 3) || data.values.len() as u64 != wanted {
+        let [x, y, z] = data.size;
+        return Err(error(format!(
+            "is to have {x} x {y} x {z} cells of {} values, but has {} values",
+            data.channels,
+            data.values.len()
+        )));
+    }
+    let is_wrong = |value: &f32| !(*value >= 0.0 && *value <= largest);
+    match data.values.iter().position(is_wrong) {
+        Some(index) => Err(error(format!("has {} as value number {index}", data.values[index]))
+            .with_remedy(format!("values are numbers from 0 to {largest}"))),
+        None => Ok(()),
+    }
+}
+
+/// One or three channels as lanes.
+fn colors(data: &GridData) -> Vec<Spectrum> {
+    let cells = data.values.chunks_exact(data.channels as usize);
+    cells
+        .map(|cell| Spectrum::from_rgb(if let [r, g, b] = *cell { [r, g, b] } else { [cell[0]; 3] }))
+        .collect()
 }
 
 fn index(description: &Located<MediumDescription>) -> Result<f32, SceneError> {

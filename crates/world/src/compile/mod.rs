@@ -104,7 +104,7 @@ impl World {
         let library = Library::new(description);
         let mut media = vec![Medium::VACUUM];
         for medium in &description.media {
-            media.push(faults.keep(media::compile(medium, &mut notes)).unwrap_or(Medium::VACUUM));
+            media.push(faults.keep(media::compile(medium)).unwrap_or(Medium::VACUUM));
         }
         let textures: Vec<Texture> = description.textures.iter().map(|t| Texture::new(&t.value)).collect();
         let materials = materials::compile_all(&library, &mut notes, &mut faults)?;
@@ -134,9 +134,13 @@ impl World {
             camera_names: Vec::new(),
             camera_media: Vec::new(),
             has_permeable,
+            has_volumes: false,
             lanes: RGB_LANES,
         };
-        if world.lights.lights().is_empty() {
+        world.has_volumes =
+            world.media.iter().any(|medium| medium.scatters() || medium.shines() || medium.grid.is_some());
+        let shines = world.media.iter().any(Medium::shines);
+        if world.lights.lights().is_empty() && !shines {
             let message =
                 "the scene has no light: the picture will be black, but for an ambient term in `whitted`";
             notes.push(Note { severity: Severity::Warning, source: None, message: message.into() });

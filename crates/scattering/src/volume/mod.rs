@@ -1,0 +1,15 @@
+//! How light gets through a medium: what is left of it after a way, and where a path scatters on it.
+//!
+//! In a homogeneous medium both are known in closed form. Where a grid says how dense it is, paths are followed from one
+//! possible collision to the next, against local upper bounds of the density (delta and ratio tracking).
+
+mod flight;
+mod grid;
+mod majorants;
+#[cfg(test)]
+mod tests;
+mod tracking;
+
+pub use flight::{Flight, Flyer};
+pub use grid::{AlbedoGrid, Grid};
+pub use tracking::transmittance;
