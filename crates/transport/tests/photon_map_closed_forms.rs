@@ -31,14 +31,14 @@ fn a_plane_under_a_point_light_has_the_irradiance_of_the_cosine_cubed() {
         kit.matte("matte", 0.5).surface("floor", floor(0.0, 6.0), "matte");
         kit.absorbing_medium("water", 1.333, [sigma; 3], 0).solid("pool", sphere(DVec3::ZERO, 20.0), "water");
         kit.light(point_light(DVec3::Y * height));
-        let map = map(&trace(&kit.world(), MapKind::Global, 400_000));
-        for x in [0.0, 0.7, 1.4] {
+        let map = map(&trace(&kit.world(), MapKind::Global, 300_000));
+        for x in [0.0, 0.6, 1.2] {
             let p = DVec3::new(x, 0.0, 0.3 * x);
             let distance = (p - DVec3::Y * height).length();
             let cos = height / distance;
             let absorbed = float::f64::exp(-f64::from(sigma) * distance);
             let expected = FLUX * cos.powi(3) / (4.0 * PI * height * height) * absorbed;
-            assert_close(irradiance(&map, p, DVec3::Y, 0.2), expected, 0.05, &format!("σ {sigma}, at {x}"));
+            assert_close(irradiance(&map, p, DVec3::Y, 0.25), expected, 0.05, &format!("σ {sigma}, at {x}"));
         }
     }
 }
@@ -55,7 +55,7 @@ fn light_is_right_on_the_axis_of_a_disc() {
         inner_radius: 0.0,
     };
     kit.lamp("lamp", disc, radiance as f32);
-    let map = map(&trace(&kit.world(), MapKind::Global, 400_000));
+    let map = map(&trace(&kit.world(), MapKind::Global, 300_000));
     let expected = PI * radiance * radius * radius / (radius * radius + height * height);
     assert_close(irradiance(&map, DVec3::ZERO, DVec3::Y, 0.08), expected, 0.03, "on the axis");
 }
@@ -109,7 +109,7 @@ fn parallel_light_in_a_mirror_cylinder_has_its_cusp_half_a_radius_from_the_axis(
         ShapeDescription::Cylinder { radius: 1.0, y: [0.0, 0.8], phi: [-0.5 * PI, 0.5 * PI], capped: false };
     kit.surface("band", cylinder, "mirror");
     kit.light(LightKind::Directional { direction: DVec3::new(1.0, -0.6, 0.0), irradiance: [1.0; 3] });
-    let photons = trace(&kit.world(), MapKind::Caustic, 1_000_000);
+    let photons = trace(&kit.world(), MapKind::Caustic, 300_000);
     let mut counts = [0_u32; 50];
     for photon in photons.iter().filter(|photon| photon.p.z.abs() < 0.004 && (0.0..1.0).contains(&photon.p.x)) {
         counts[(photon.p.x * 50.0) as usize] += 1;
@@ -126,7 +126,7 @@ fn parallel_light_through_a_ball_lens_meets_half_a_radius_behind_it() {
     kit.matte("matte", 0.5).surface("floor", floor(-1.2, 4.0), "matte");
     kit.medium("glass", 1.5).solid("lens", sphere(DVec3::ZERO, radius), "glass");
     kit.light(LightKind::Directional { direction: -DVec3::Y, irradiance: [1.0; 3] });
-    let photons = trace(&kit.world(), MapKind::Caustic, 1_000_000);
+    let photons = trace(&kit.world(), MapKind::Caustic, 300_000);
     let mut foci = Vec::new();
     for photon in photons.iter().filter(|photon| photon.bounces == 2) {
         let (p, d) = (photon.p.as_dvec3(), photon.direction.as_dvec3());
@@ -155,6 +155,6 @@ fn caustic_photons_have_met_specular_surfaces_alone() {
     let aimed = trace(&world, MapKind::Caustic, 100_000);
     assert!(aimed.iter().all(|photon| photon.kind == PhotonKind::Caustic && photon.bounces > 0));
     let plain = of_kind(PhotonKind::Caustic)(trace(&world, MapKind::Global, 400_000));
-    assert_close(power(&aimed), power(&plain), 0.02, "power of the caustics, with and without projection");
+    assert_close(power(&aimed), power(&plain), 0.03, "power of the caustics, with and without projection");
     assert!(aimed.len() > plain.len() / 2, "{} of 100 000, {} of 400 000", aimed.len(), plain.len());
 }

@@ -184,3 +184,6 @@ struct Collected {
     /// Photons within it.
     found: u32,
 }
+
+#[cfg(test)]
+mod tests;

@@ -103,3 +103,55 @@ impl Kernel {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use hyaline_testkit::integrate;
+
+    const KERNELS: [Kernel; 6] = [
+        Kernel::Constant,
+        Kernel::Cone { k: 1.0 },
+        Kernel::Cone { k: 1.1 },
+        Kernel::Cone { k: 3.0 },
+        Kernel::Gaussian,
+        Kernel::Epanechnikov,
+    ];
+
+    #[test]
+    fn weights_and_norms_make_one_on_discs_and_in_balls() {
+        let pi = f64::from(PI);
+        for kernel in KERNELS {
+            for r in [0.01_f64, 1.0, 30.0] {
+                let r2 = (r * r) as f32;
+                let weight = |d: f64| f64::from(kernel.weight((d * d) as f32, r2));
+                let disc = integrate(|d| 2.0 * pi * d * weight(d), 0.0, r, 200);
+                let ball = integrate(|d| 4.0 * pi * d * d * weight(d), 0.0, r, 200);
+                assert!((disc * f64::from(kernel.disc_norm(r2)) - 1.0).abs() < 1e-5, "{kernel:?} {r}");
+                assert!((ball * f64::from(kernel.ball_norm(r2)) - 1.0).abs() < 1e-5, "{kernel:?} {r}");
+            }
+        }
+    }
+
+    #[test]
+    fn mean_weights_are_the_known_ones() {
+        let b = f64::from(GAUSSIAN_B);
+        let edge = |x: f64| 1.0 - f64::from(float::exp(-x as f32));
+        let by_formula = f64::from(GAUSSIAN_A) * (1.0 - (1.0 - 2.0 * edge(b / 2.0) / b) / edge(b));
+        assert!((f64::from(Kernel::Gaussian.disc_mean()) - by_formula).abs() < 1e-6);
+        assert!((1.0 - f64::from(GAUSSIAN_EDGE) - edge(b)).abs() < 1e-7);
+        assert_eq!(Kernel::Gaussian.disc_mean(), 0.531_154_93);
+        assert_eq!(Kernel::Gaussian.ball_mean(), 0.463_939_68);
+        assert_eq!(Kernel::Cone { k: 1.0 }.ball_mean(), 0.25);
+        assert!((Kernel::Cone { k: 2.0 }.disc_mean() - 2.0 / 3.0).abs() < 1e-7);
+    }
+
+    #[test]
+    fn weights_fall_with_distance_and_are_never_negative() {
+        for kernel in KERNELS {
+            let weights: Vec<f32> = (0..=100).map(|i| kernel.weight(i as f32 * 0.04, 4.0)).collect();
+            assert!(weights.windows(2).all(|pair| pair[0] >= pair[1]), "{kernel:?}");
+            assert!(weights.iter().all(|weight| (-1e-6..=1.0).contains(weight)), "{kernel:?}");
+        }
+    }
+}

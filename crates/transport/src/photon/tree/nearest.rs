@@ -11,7 +11,7 @@ use super::simd::{Distances, Lanes};
 /// Memory for a query of nearest points, and its answer; use it again and again, as it grows only once.
 #[derive(Clone, Debug, Default)]
 pub struct Nearest {
-    /// Squared distances; only the first `len` mean something, and at least a packet more is there.
+    /// Squared distances; whole packets, of which only the first `len` numbers mean something.
     distances: Vec<f32>,
     /// Indices, likewise.
     indices: Vec<u32>,
@@ -89,7 +89,8 @@ impl Nearest {
 
     #[cold]
     fn grow(&mut self) {
-        let size = 2 * (self.len + PACKET);
+        // Whole packets, so that the last one can be read as such.
+        let size = (2 * (self.len + PACKET)).next_multiple_of(PACKET);
         self.distances.resize(size, 0.0);
         self.indices.resize(size, 0);
     }
