@@ -21,7 +21,7 @@ use hyaline_world::camera::PixelSpread;
 use hyaline_world::{World, mask};
 
 /// Gray of a surface that is seen head on.
-const BACKDROP: f32 = 0.012;
+const BACKDROP: f32 = 0.03;
 
 /// What points are drawn from.
 pub(super) struct PointCloud<'a> {
