@@ -1,5 +1,6 @@
 //! The import as a whole: shapes, lights, cameras, and what every scene needs.
 
+use super::backs;
 use super::element::{Element, warn_of_leftovers};
 use super::group::Groups;
 use super::media::{Later, Media};
@@ -29,6 +30,8 @@ pub(super) struct Importer<'a> {
     pub(super) world_is_vacuum: bool,
     /// Whether the file is of version 0.5 or 0.6, whose defaults differ.
     pub(super) is_old: bool,
+    /// Whether backs are finished as fronts are, whatever the file says.
+    two_sided: bool,
     /// Index of what fills the world.
     pub(super) world_index: f64,
     /// Media of objects that are settled once all shapes are read.
@@ -43,7 +46,9 @@ pub(super) struct Importer<'a> {
 
 impl<'a> Importer<'a> {
     /// Starts with an empty scene.
-    pub(super) fn new(tree: &'a Tree, assets: &'a Assets) -> Self {
+    ///
+    /// - `two_sided`: whether backs are finished as fronts are, whatever the file says.
+    pub(super) fn new(tree: &'a Tree, assets: &'a Assets, two_sided: bool) -> Self {
         Self {
             tree,
             assets,
@@ -51,6 +56,7 @@ impl<'a> Importer<'a> {
             media: Media::default(),
             world_is_vacuum: false,
             is_old: false,
+            two_sided,
             world_index: 1.0,
             later: Vec::new(),
             groups: Groups::default(),
@@ -91,6 +97,10 @@ impl<'a> Importer<'a> {
             let error = SceneError::at(root.source(), "the scene has neither a shape nor an emitter");
             return Err(error.with_remedy("add <shape> or <emitter>"));
         }
+        if self.two_sided {
+            self.scene.materials.iter_mut().for_each(|material| material.two_sided = true);
+        }
+        backs::note(&self.scene, &notes);
         warn_of_leftovers(self.tree, &notes);
         self.scene.notes = notes.into_list();
         Ok(self.scene)

@@ -4,6 +4,7 @@
 //! took is noted as a warning. A dielectric boundary names the media on both sides: a side's medium is its volume
 //! together with that side's index of refraction. Without volume and with index 1 it is the world's.
 
+mod backs;
 mod bsdf;
 mod element;
 mod emitter;
@@ -39,9 +40,12 @@ mod tests;
 use crate::Result;
 use crate::assets::Assets;
 use crate::own::override_imported;
-use hyaline_scene::SceneDescription;
+use hyaline_scene::{SceneDescription, SceneError, Source};
 use std::path::Path;
 use std::sync::Arc;
+
+/// The key of `--set` that makes all finishes two-sided.
+const TWO_SIDED: &str = "import.two_sided";
 
 /// Reads a scene from its text.
 ///
@@ -55,8 +59,22 @@ pub(crate) fn read(
 ) -> Result<SceneDescription> {
     let assets = Assets::new(base_dir);
     let (parameters, overrides) = parameters::Parameters::from_overrides(overrides);
+    let (two_sided, overrides) = take_two_sided(overrides)?;
     let tree = parse::parse(text, file, &assets, parameters)?;
-    let mut scene = importer::Importer::new(&tree, &assets).read()?;
+    let mut scene = importer::Importer::new(&tree, &assets, two_sided).read()?;
     override_imported(&mut scene, &overrides)?;
     Ok(scene)
+}
+
+/// Takes `import.two_sided` out of a list of overrides.
+fn take_two_sided(mut overrides: Vec<(String, String)>) -> Result<(bool, Vec<(String, String)>)> {
+    let mut two_sided = false;
+    while let Some(index) = overrides.iter().position(|(key, _)| key == TWO_SIDED) {
+        let (_, value) = overrides.remove(index);
+        two_sided = value.trim().parse().map_err(|_| {
+            let message = format!("{TWO_SIDED} must be true or false, not '{value}'");
+            SceneError::at(&Source::file("--set"), message)
+        })?;
+    }
+    Ok((two_sided, overrides))
 }

@@ -48,6 +48,7 @@ impl Volume {
 }
 
 /// What a medium says of its coefficients, before `scale`.
+#[allow(clippy::large_enum_variant, reason = "there is one at a time")]
 enum Coefficients {
     /// Absorption and scattering, each by itself.
     Apart(Rgb, Rgb),
