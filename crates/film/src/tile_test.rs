@@ -35,6 +35,8 @@ pub struct TileTest {
     pub passes: bool,
     /// Number of tiles.
     pub tile_count: usize,
+    /// Relative difference that the test would find in half of the tiles and channels: how sharp it is.
+    pub resolution: f64,
     /// How many tests would fail by the tiles' own variances, not raised to their neighbors'.
     pub failures_by_own_variance: usize,
     /// The tiles and channels that don't.
@@ -85,6 +87,7 @@ pub fn tile_test(
     let (pooled_image, pooled_reference) = (pooled(&image, columns), pooled(&reference, columns));
     let threshold = sidak(3 * tiles.len());
     let (mut worst_p, mut failures, mut failures_by_own_variance) = (1.0_f64, Vec::new(), 0);
+    let mut relative_errors = Vec::new();
     for (index, &tile) in tiles.iter().enumerate() {
         for channel in 0..3 {
             let (a, b) = (&image[index][channel], &reference[index][channel]);
@@ -96,6 +99,7 @@ pub fn tile_test(
             ];
             let p = p_value(a.mean, b.mean, variances[0] + variances[1]);
             worst_p = worst_p.min(p);
+            relative_errors.push((variances[0] + variances[1]).sqrt() / b.mean);
             if p < threshold {
                 failures.push(TileFailure { tile, channel, mean: a.mean, reference_mean: b.mean, p });
             }
@@ -108,6 +112,7 @@ pub fn tile_test(
         threshold,
         passes: failures.is_empty(),
         tile_count: tiles.len(),
+        resolution: quantile(threshold) * median(relative_errors),
         failures_by_own_variance,
         failures,
     })
@@ -165,6 +170,23 @@ fn p_value(mean: f64, reference_mean: f64, variance: f64) -> f64 {
     } else {
         libm::erfc(difference / (2.0 * (variance + rounding * rounding)).sqrt())
     }
+}
+
+/// How many standard deviations off a difference is whose p-value is `p`, 0 < p ≤ 1.
+fn quantile(p: f64) -> f64 {
+    let (mut low, mut high) = (0.0, 40.0);
+    for _ in 0..60 {
+        let middle = 0.5 * (low + high);
+        *(if libm::erfc(middle / 2.0_f64.sqrt()) > p { &mut low } else { &mut high }) = middle;
+    }
+    low
+}
+
+/// The middle one of some numbers, black tiles' infinities among them; 0 where there is none.
+fn median(mut numbers: Vec<f64>) -> f64 {
+    numbers.retain(|number| !number.is_nan());
+    numbers.sort_by(f64::total_cmp);
+    numbers.get(numbers.len() / 2).copied().unwrap_or(0.0)
 }
 
 /// Tiles that cover the picture, row by row.
@@ -250,6 +272,20 @@ mod tests {
     fn without_noise(samples: f64, bright: f64, rate: f64) -> (Image, Image) {
         let mean = 0.5 + rate / 144.0 * bright / samples;
         (Image::new(60, 60, vec![[mean as f32; 3]; 3600]), Image::new(60, 60, vec![[1e-12; 3]; 3600]))
+    }
+
+    #[test]
+    fn the_resolution_is_the_difference_that_would_just_be_found() {
+        assert!((quantile(0.05) - 1.959_964).abs() < 1e-6);
+        let constant = |value: f32| Image::new(24, 24, vec![[value; 3]; 576]);
+        let zero = Image::new(24, 24, vec![]);
+        let test = |value: f32| {
+            tile_test(&constant(value), &constant(1e-2), &constant(1.0), &zero, 12).expect("same size")
+        };
+        let resolution = test(1.0).resolution;
+        // A tile's standard error is 0.1 / 12.
+        assert!((resolution / (quantile(test(1.0).threshold) * 0.1 / 12.0) - 1.0).abs() < 1e-6);
+        assert!(test(1.0 + 0.99 * resolution as f32).passes && !test(1.0 + 1.01 * resolution as f32).passes);
     }
 
     #[test]

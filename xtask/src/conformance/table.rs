@@ -55,12 +55,13 @@ fn verdict(measured: &Measured) -> String {
     };
     match (&measured.tiles, &measured.figures) {
         (Some(tiles), _) => format!(
-            "{}: {} of {} tiles differ, worst p {:.1e} of {:.1e}, {length}",
+            "{}: {} of {} tiles differ, worst p {:.1e} of {:.1e}, finds {:.1} %, {length}",
             if tiles.passes { "passes" } else { "FAILS" },
             tiles.failing,
             tiles.count,
             tiles.worst_p,
             tiles.threshold,
+            100.0 * tiles.resolution,
         ),
         (None, Some(_)) => format!("no variance of the reference, {length}"),
         (None, None) => format!("no reference, {length}"),
@@ -92,6 +93,7 @@ fn scene(name: &str, measured: &Measured) -> Value {
             "tiles": tiles.count,
             "failing": tiles.failing,
             "failing_by_own_variance": tiles.failing_by_own_variance,
+            "resolution": tiles.resolution,
             "worst_p": tiles.worst_p,
             "threshold": tiles.threshold,
             "failures": tiles.failures,
@@ -134,6 +136,7 @@ mod tests {
             count: 256,
             failing: 2,
             failing_by_own_variance: 9,
+            resolution: 0.02,
             worst_p: 1e-9,
             threshold: 1e-5,
             failures: Vec::new(),

@@ -58,6 +58,8 @@ pub(crate) struct Tiles {
     pub(crate) failing: usize,
     /// Tests, three a tile, that would fail by the tiles' own variances.
     pub(crate) failing_by_own_variance: usize,
+    /// Relative difference that is found in half of the tests.
+    pub(crate) resolution: f64,
     /// Smallest p-value.
     pub(crate) worst_p: f64,
     /// What it must reach.
@@ -85,6 +87,7 @@ impl Tiles {
             count: test.tile_count,
             failing: failing.len(),
             failing_by_own_variance: test.failures_by_own_variance,
+            resolution: test.resolution,
             worst_p: test.worst_p,
             threshold: test.threshold,
             failures: test.failures.iter().map(words).collect(),
