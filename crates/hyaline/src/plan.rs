@@ -13,8 +13,6 @@ use hyaline_world::camera::PixelFilter;
 
 /// Most pixels of a picture: beyond that sums would need tens of gigabytes.
 const MAX_PIXELS: u64 = 1 << 28;
-/// Integrators that are planned.
-const NOT_YET: [&str; 1] = ["merging"];
 
 /// Everything that decides on the picture but the scene itself.
 pub(crate) struct Plan {
@@ -76,9 +74,6 @@ fn choose_integrator(
     };
     if let Some(integrator) = integrator::by_name(name) {
         return Ok(integrator);
-    }
-    if NOT_YET.contains(&name) {
-        return Err(Failure::not_yet(&format!("integrator '{name}'")));
     }
     Err(Failure::usage(format!("there is no integrator '{name}'"))
         .with_remedy(format!("there are: {}", integrator::NAMES.join(", "))))
@@ -158,9 +153,8 @@ mod tests {
     }
 
     #[test]
-    fn what_is_planned_and_what_is_unknown_are_told_apart() {
+    fn what_is_unknown_is_named() {
         let refusal = |words: &str| plan_of(words, &mut SceneDescription::default()).err().map(|f| f.message);
-        assert!(refusal("--integrator merging").unwrap().contains("not yet"));
         assert!(refusal("--integrator nonsense").unwrap().contains("no integrator"));
         assert!(refusal("--camera nobody").unwrap().contains("no camera"));
     }

@@ -36,8 +36,9 @@ pub fn sample_one_light(
         false => mis::power(sample.pdf_w * choice.probability, phase),
     };
     let ray = shadow::ray_from(vertex.p, &sample, 0.0);
-    let visible = shadow::transmittance(world, &ray, set, stats);
-    sample.radiance * visible * (phase * weight / (sample.pdf_w * choice.probability))
+    let way = shadow::straight_way(world, &ray, set, stats);
+    let visible = way.shared * weight + way.alone;
+    sample.radiance * visible * (phase / (sample.pdf_w * choice.probability))
 }
 
 /// The phase function in force at a place.

@@ -1,6 +1,7 @@
 //! What an integrator is: something that prepares, and then renders numbered passes that know nothing of each other.
 
 pub mod debug;
+mod eye;
 mod merging;
 mod path;
 mod per_pixel;
@@ -102,7 +103,7 @@ pub trait Pass: Send + Sync {
 }
 
 /// Names of the integrators there are, the default first.
-pub const NAMES: [&str; 5] = ["path", "merging", "photon-map", "whitted", "debug"];
+pub const NAMES: [&str; 5] = ["merging", "path", "photon-map", "whitted", "debug"];
 
 /// The integrator of that name.
 pub fn by_name(name: &str) -> Option<Box<dyn Integrator>> {

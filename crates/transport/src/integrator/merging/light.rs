@@ -1,9 +1,9 @@
 //! Photons of a pass: from the lights through polished and nearly polished surfaces to the first wide one.
 
-use super::weight::{self, SideOfChain};
 use crate::direct;
+use crate::integrator::eye::weight::{self, SideOfChain};
 use crate::photon::specular::is_specular_event;
-use crate::photon::tree::PointTree;
+use crate::photon::tree::{PointTree, Region};
 use crate::photon::{PhotonEmitter, PhotonStart};
 use crate::stats::Stats;
 use crate::walk::{self, Event, Flown, Vertex};
@@ -28,24 +28,41 @@ const LEAF: u32 = 16;
 
 /// A photon that has landed.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct CausticPhoton {
+pub(in crate::integrator) struct CausticPhoton {
     /// The way it travelled, unit.
-    pub(super) direction: Vec3,
+    pub(in crate::integrator) direction: Vec3,
     /// W, over all photons of the pass; in a medium what it scatters.
-    pub(super) flux: Spectrum,
+    pub(in crate::integrator) flux: Spectrum,
     /// Sum of the squares of the densities of the other ways to make its path, over that of merging, but for the factor
     /// of the receiver, which the eye's path knows.
-    pub(super) others: f32,
+    pub(in crate::integrator) others: f32,
 }
 
 /// All photons of a pass.
-pub(super) struct Landed {
+pub(in crate::integrator) struct Landed {
     /// Photons sent out.
-    pub(super) sent: f32,
+    pub(in crate::integrator) sent: f32,
     /// Those on surfaces.
-    pub(super) surface: PointTree<CausticPhoton>,
+    surface: PointTree<CausticPhoton>,
     /// Those in media.
-    pub(super) volume: PointTree<CausticPhoton>,
+    volume: PointTree<CausticPhoton>,
+}
+
+impl Landed {
+    /// Shows every photon on a surface within a radius.
+    pub(in crate::integrator) fn surface(&self, p: Vec3, radius: f32, f: impl FnMut(&CausticPhoton)) {
+        visit(&self.surface, p, radius, f);
+    }
+
+    /// Shows every photon in a medium within a radius.
+    pub(in crate::integrator) fn volume(&self, p: Vec3, radius: f32, f: impl FnMut(&CausticPhoton)) {
+        visit(&self.volume, p, radius, f);
+    }
+}
+
+fn visit(tree: &PointTree<CausticPhoton>, center: Vec3, radius: f32, mut f: impl FnMut(&CausticPhoton)) {
+    let region = Region { center, radius, disc: None };
+    tree.within(&region, &mut |index, _| f(tree.payload(index)));
 }
 
 /// Photons that a pass sends out: none where no light can reach anything polished.
@@ -176,7 +193,7 @@ fn start<'w>(
 /// density is that of the light over the share of its light that is sent out.
 ///
 /// - `direction`: the way the photon travels.
-pub(super) fn emission_density(
+pub(in crate::integrator) fn emission_density(
     world: &World,
     emitter: &PhotonEmitter<'_>,
     light: usize,

@@ -5,9 +5,9 @@
 //!
 //! 1. `light` sends out photons and follows them through polished and nearly polished surfaces to the first wide one,
 //!    where they are kept (L S+ D).
-//! 2. `eye` traces one path per pixel, as `path` does. At its wide vertices it also gathers the photons about them,
+//! 2. `integrator/eye` traces one path per pixel, as `path` does. At its wide vertices it also gathers the photons about them,
 //!    within a radius of a few pixels that shrinks from pass to pass.
-//! 3. `weight` says what the two count where they make the same path: a lamp hit through glass is weighed against the
+//! 3. `integrator/eye/weight` says what the two count where they make the same path: a lamp hit through glass is weighed against the
 //!    photons that would have come through it.
 //!
 //! Passes know nothing of each other, but for the radius, which is a closed form of the pass's number. Sources: Knaus
@@ -15,20 +15,17 @@
 //! Slusallek, Light transport simulation with vertex connection and merging, ACM TOG 31(6), 2012; Grittmann, Pérard-Gayot,
 //! Slusallek & Křivánek, Efficient caustic rendering with lightweight photon mapping, CGF 37(4), 2018.
 
-mod eye;
-mod footprint;
 mod light;
-mod weight;
 
+use super::eye::{Draws, Eye};
 use super::per_pixel::CameraRays;
-use super::{Integrator, Pass, Prepared, RenderSettings, View, path};
+use super::{Integrator, Pass, Prepared, RenderSettings, View};
 use crate::photon::{PhotonEmitter, radius};
 use crate::stats::Stats;
-use eye::Eye;
 use hyaline_film::{PixelSample, Rect};
 use hyaline_scene::ProjectionMaps;
 use hyaline_world::World;
-use light::Landed;
+pub(super) use light::{Landed, emission_density};
 use std::sync::atomic::AtomicBool;
 
 /// Cells of the projection maps along each axis.
@@ -73,6 +70,14 @@ impl Prepared for Merging<'_> {
     }
 }
 
+/// Photons of a pass, for paths that gather them.
+#[derive(Clone, Copy)]
+pub(super) struct Photons<'a> {
+    pub(super) emitter: &'a PhotonEmitter<'a>,
+    pub(super) landed: &'a Landed,
+    pub(super) shrink: radius::Shrink,
+}
+
 /// One pass: its photons, and its paths.
 struct MergingPass<'a> {
     merging: &'a Merging<'a>,
@@ -86,10 +91,11 @@ impl Pass for MergingPass<'_> {
         let Merging { world, view, settings, emitter, photons } = self.merging;
         let spread = world.cameras[view.camera].spread();
         let camera = CameraRays { world, view, settings, pass: self.pass };
-        let eye = Eye { world, settings, emitter, landed: &self.landed, shrink: self.shrink, spread };
-        camera.render_tile(tile, samples, |ray, set, sampler, sample| match photons {
-            0 => path::radiance(world, settings, ray, set, sampler, stats, Some(sample)),
-            _ => eye.radiance(ray, set, sampler, stats, sample),
+        let photons =
+            (*photons > 0).then_some(Photons { emitter, landed: &self.landed, shrink: self.shrink });
+        let eye = Eye { world, settings, spread, photons };
+        camera.render_tile(tile, samples, |ray, set, sampler, sample| {
+            eye.radiance(ray, set, &mut Draws { sampler, stats }, Some(sample))
         });
     }
 }

@@ -26,30 +26,30 @@ use std::f32::consts::PI;
 /// - `photons`: photons of a pass; `radius`: gather radius.
 /// - `ior`, `cos`: index and cosine (with the geometric normal) on the side of the chain.
 /// - `pdf`: density of the path's direction toward the chain, sr⁻¹.
-pub(super) fn at_receiver(photons: f32, radius: f32, ior: f32, cos: f32, pdf: f32) -> f32 {
+pub(in crate::integrator) fn at_receiver(photons: f32, radius: f32, ior: f32, cos: f32, pdf: f32) -> f32 {
     photons * PI * radius * radius * ior * ior * cos / pdf
 }
 
 /// The factor of the place in a medium that photons are merged at.
 ///
 /// - `sigma`: mean extinction coefficient, 1 / scene unit: photons per length of their way that stop there.
-pub(super) fn in_volume(photons: f32, radius: f32, ior: f32, sigma: f32, pdf: f32) -> f32 {
+pub(in crate::integrator) fn in_volume(photons: f32, radius: f32, ior: f32, sigma: f32, pdf: f32) -> f32 {
     photons * (4.0 / 3.0) * PI * radius * radius * radius * ior * ior * sigma / pdf
 }
 
 /// One side of a rough vertex of the chain.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct SideOfChain {
+pub(in crate::integrator) struct SideOfChain {
     /// Density of the direction on this side, drawn from the other, sr⁻¹.
-    pub(super) pdf: f32,
+    pub(in crate::integrator) pdf: f32,
     /// Index of refraction.
-    pub(super) ior: f32,
+    pub(in crate::integrator) ior: f32,
     /// Cosine with the geometric normal, 0…1.
-    pub(super) cos: f32,
+    pub(in crate::integrator) cos: f32,
 }
 
 /// The factor of a rough vertex of the chain.
-pub(super) fn across(toward_receiver: SideOfChain, toward_light: SideOfChain) -> f32 {
+pub(in crate::integrator) fn across(toward_receiver: SideOfChain, toward_light: SideOfChain) -> f32 {
     let etendue = |side: SideOfChain| side.ior * side.ior * side.cos;
     toward_receiver.pdf * etendue(toward_light) / (toward_light.pdf * etendue(toward_receiver))
 }
@@ -58,13 +58,13 @@ pub(super) fn across(toward_receiver: SideOfChain, toward_light: SideOfChain) ->
 ///
 /// - `chance`: of the light among all, for emission; `position`, `direction`: densities of the emitted ray.
 /// - `ior`, `cos`: index and cosine at the light; 1 for the cosine at lights without a surface.
-pub(super) fn at_light(chance: f32, position: f32, direction: f32, ior: f32, cos: f32) -> f32 {
+pub(in crate::integrator) fn at_light(chance: f32, position: f32, direction: f32, ior: f32, cos: f32) -> f32 {
     chance * position * direction / (ior * ior * cos)
 }
 
 /// The power heuristic among one way and others.
 ///
 /// - `squares`: sum of the squares of the others' densities over that of this one; may be infinite.
-pub(super) fn power(squares: f32) -> f32 {
+pub(in crate::integrator) fn power(squares: f32) -> f32 {
     if squares.is_nan() { 0.0 } else { 1.0 / (1.0 + squares) }
 }

@@ -1,0 +1,61 @@
+//! Lights that a path comes to by itself.
+
+use super::{Eye, Path, weight};
+use crate::integrator::merging::emission_density;
+use crate::walk::Vertex;
+use hyaline_math::Vec3;
+use hyaline_spectrum::Spectrum;
+use hyaline_world::mask;
+
+impl Eye<'_> {
+    /// Light of the surface that the path hits.
+    pub(super) fn emitted(&self, path: &Path, vertex: &Vertex) -> Spectrum {
+        let Some(index) = vertex.light.filter(|_| !path.last.is_covered) else { return Spectrum::ZERO };
+        let light = self.world.lights.get(index as usize);
+        let (hit, direction) = (&vertex.hit, path.ray.direction);
+        let radiance = light.radiance_from(hit, -direction);
+        if radiance.is_zero() {
+            return radiance;
+        }
+        let sampling = path.last.sampled.map_or(0.0, |(p, pdf)| {
+            let chance = self.world.lights.direct().probability(index as usize);
+            chance * light.pdf_direct(p, direction, Some(hit)) / pdf
+        });
+        let merging = self.merging(path, index as usize, Some(hit.ng));
+        radiance * weight::power(sampling * sampling + merging * merging)
+    }
+
+    /// Light of the surroundings.
+    pub(super) fn sky(&self, path: &Path) -> Spectrum {
+        let mut result = Spectrum::ZERO;
+        if path.last.is_covered {
+            return result;
+        }
+        let lights = &self.world.lights;
+        let seen = if path.visible == mask::CAMERA { &self.world.camera_sky } else { lights.environments() };
+        for &index in seen {
+            let light = lights.get(index as usize);
+            let sampling = path.last.sampled.map_or(0.0, |(p, pdf)| {
+                lights.direct().probability(index as usize) * light.pdf_direct(p, path.ray.direction, None)
+                    / pdf
+            });
+            let merging = self.merging(path, index as usize, None);
+            let weight = weight::power(sampling * sampling + merging * merging);
+            result += light.radiance_of_sky(path.ray.direction) * weight;
+        }
+        result
+    }
+
+    /// Density of merging over that of hitting the light that the path has come to.
+    ///
+    /// - `n`: outward normal of the light at the place; `None` for the surroundings.
+    fn merging(&self, path: &Path, index: usize, n: Option<Vec3>) -> f32 {
+        match (path.receiver, &self.photons) {
+            (Some(receiver), Some(photons)) if receiver.chain > 0 => {
+                let direction = -path.ray.direction;
+                receiver.ratio * emission_density(self.world, photons.emitter, index, n, direction, &path.set)
+            }
+            _ => 0.0,
+        }
+    }
+}

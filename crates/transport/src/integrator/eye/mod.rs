@@ -1,0 +1,161 @@
+//! Paths from the eye: what `path` and `merging` trace, the one without and the other with photons about.
+//!
+//! 1. Walk to the next surface or, in a medium that scatters, to the next particle; what lies between is filtered by the
+//!    medium the path is in.
+//! 2. If the surface shines, add its light, weighed against the other ways to find it.
+//! 3. If the vertex is not polished, gather the photons about it, sample a light, and add what reaches the vertex.
+//! 4. Go on in a direction drawn from the BSDF or phase function. Singular crossings are free: there is no limit on
+//!    them.
+//! 5. Weak paths end by roulette on their throughput without the n² factor, so none dies for being inside glass.
+
+mod footprint;
+mod hit;
+mod place;
+mod receiver;
+mod surface;
+pub(super) mod weight;
+
+use crate::direct::LastScatter;
+use crate::first_hit;
+use crate::integrator::RenderSettings;
+use crate::integrator::merging::Photons;
+use crate::roulette::{PATIENCE_WITH_SHADING_NORMALS, eye_survival};
+use crate::stats::Stats;
+use crate::walk::{self, Event, Flown};
+use footprint::Footprint;
+use hyaline_film::PixelSample;
+use hyaline_math::Ray;
+use hyaline_sampling::Sampler;
+use hyaline_scattering::MediumSet;
+use hyaline_spectrum::Spectrum;
+use hyaline_world::camera::PixelSpread;
+use hyaline_world::{World, mask};
+use receiver::Receiver;
+
+/// What paths have in common.
+pub(super) struct Eye<'a> {
+    pub(super) world: &'a World,
+    pub(super) settings: &'a RenderSettings,
+    /// Size of a pixel in the scene.
+    pub(super) spread: PixelSpread,
+    /// Photons to gather.
+    pub(super) photons: Option<Photons<'a>>,
+}
+
+/// What a path draws from and counts in.
+pub(super) struct Draws<'a> {
+    pub(super) sampler: &'a mut Sampler,
+    pub(super) stats: &'a mut Stats,
+}
+
+/// A path under way.
+struct Path {
+    ray: Ray,
+    set: MediumSet,
+    throughput: Spectrum,
+    /// The n² factors collected so far: radiance inside a medium is larger, but the path is not worth more there.
+    index_scale: f32,
+    last: LastScatter,
+    /// Where photons would be merged that come the way that the path goes.
+    receiver: Option<Receiver>,
+    footprint: Footprint,
+    /// Which items the next ray sees.
+    visible: u8,
+    /// Scatterings so far, singular ones not counted.
+    bounces: u32,
+    /// Singular events in a row.
+    crossings: u32,
+    /// Light found so far.
+    light: Spectrum,
+}
+
+impl Eye<'_> {
+    /// One estimate of the radiance that arrives along `ray`, which starts inside `set`.
+    ///
+    /// - `first`: receives what the first surface looks like.
+    pub(super) fn radiance(
+        &self,
+        ray: Ray,
+        set: MediumSet,
+        draws: &mut Draws<'_>,
+        mut first: Option<&mut PixelSample>,
+    ) -> Spectrum {
+        let mut path = self.start(ray, set);
+        loop {
+            let event = match self.walk(&mut path, draws) {
+                Flown::Arrived(event) => event,
+                Flown::Scattered(place) => {
+                    first = None;
+                    match self.at_place(&mut path, &place, draws) {
+                        true => continue,
+                        false => return path.light,
+                    }
+                }
+            };
+            let mut vertex = match event {
+                Event::Sky { transmittance } => {
+                    return path.light + path.throughput * transmittance * self.sky(&path);
+                }
+                Event::Surface(vertex) => vertex,
+            };
+            if path.crossings > PATIENCE_WITH_SHADING_NORMALS {
+                vertex.bsdf = vertex.bsdf.without_shading_normal();
+            }
+            path.throughput *= vertex.transmittance;
+            path.footprint.travel(vertex.distance);
+            if let Some(sample) = first.take() {
+                first_hit::record(sample, &vertex, &path.ray);
+            }
+            path.light += path.throughput * self.emitted(&path, &vertex);
+            if !self.at_surface(&mut path, &vertex, draws) {
+                return path.light;
+            }
+        }
+    }
+
+    fn start(&self, ray: Ray, set: MediumSet) -> Path {
+        Path {
+            ray,
+            set,
+            throughput: Spectrum::ONE,
+            index_scale: 1.0,
+            last: LastScatter::default(),
+            receiver: None,
+            footprint: Footprint::of_pixel(self.spread),
+            visible: mask::CAMERA,
+            bounces: 0,
+            crossings: 0,
+            light: Spectrum::ZERO,
+        }
+    }
+
+    /// To the next vertex. Where no medium does more than dim, nothing is drawn for it.
+    fn walk(&self, path: &mut Path, draws: &mut Draws<'_>) -> Flown {
+        let Path { ray, set, visible, throughput, .. } = path;
+        if !self.world.has_volumes {
+            return Flown::Arrived(walk::advance(self.world, ray, *visible, set, draws.stats));
+        }
+        let (flown, emitted) =
+            walk::fly(self.world, ray, *visible, set, *throughput, draws.sampler, draws.stats);
+        path.light += path.throughput * emitted;
+        flown
+    }
+
+    /// Whether the path may scatter once more and still be counted.
+    fn may_bounce(&self, path: &Path) -> bool {
+        self.settings.max_depth.is_none_or(|limit| path.bounces < limit)
+    }
+
+    /// Roulette, once a path has scattered; returns whether it goes on.
+    fn survives(&self, path: &mut Path, draws: &mut Draws<'_>) -> bool {
+        path.visible = mask::PATH;
+        let roulette = draws.sampler.next_1d();
+        let weight = path.throughput.max_lane(self.world.lanes) / path.index_scale;
+        let survival = eye_survival(weight, path.bounces, path.crossings);
+        if self.settings.max_depth.is_some_and(|limit| path.bounces > limit) || roulette >= survival {
+            return false;
+        }
+        path.throughput *= 1.0 / survival;
+        true
+    }
+}
