@@ -77,12 +77,7 @@ impl DirectLight<'_> {
 
 /// Radiance of the surface hit towards the start of `ray`, weighted against light sampling where the path came from a
 /// vertex that sampled lights: `sampled` is that vertex and the density of the direction.
-pub fn surface_radiance(
-    world: &World,
-    vertex: &Vertex,
-    ray: &Ray,
-    sampled: Option<(Vec3, f32)>,
-) -> Spectrum {
+pub fn surface_radiance(world: &World, vertex: &Vertex, ray: &Ray, sampled: Option<(Vec3, f32)>) -> Spectrum {
     let Some(index) = vertex.light else { return Spectrum::ZERO };
     let light = world.lights.get(index as usize);
     let radiance = light.radiance_from(&vertex.hit, -ray.direction);

@@ -48,12 +48,8 @@ fn light_is_right_on_the_axis_of_a_disc() {
     let (radius, height, radiance) = (0.5, 1.0, 3.0);
     let mut kit = SceneKit::new();
     kit.matte("matte", 0.5).surface("floor", floor(0.0, 6.0), "matte");
-    let disc = ShapeDescription::Disc {
-        center: DVec3::Y * height,
-        normal: -DVec3::Y,
-        radius,
-        inner_radius: 0.0,
-    };
+    let disc =
+        ShapeDescription::Disc { center: DVec3::Y * height, normal: -DVec3::Y, radius, inner_radius: 0.0 };
     kit.lamp("lamp", disc, radiance as f32);
     let map = map(&trace(&kit.world(), MapKind::Global, 300_000));
     let expected = PI * radiance * radius * radius / (radius * radius + height * height);
@@ -94,7 +90,8 @@ fn the_power_that_arrives_at_the_wall_of_a_closed_room_is_a_geometric_series() {
         let expected = FLUX / (1.0 - f64::from(albedo));
         assert_close(power(&photons), expected, 0.01, &format!("albedo {albedo}, with glass: {bodies}"));
         let mean = power(&photons) / photons.len() as f64;
-        let unequal = photons.iter().find(|photon| (f64::from(photon.flux.mean(3)) / mean - 1.0).abs() > 1e-3);
+        let unequal =
+            photons.iter().find(|photon| (f64::from(photon.flux.mean(3)) / mean - 1.0).abs() > 1e-3);
         assert!(unequal.is_none(), "a photon of {unequal:?} among those of {mean} W");
     }
 }
@@ -111,7 +108,8 @@ fn parallel_light_in_a_mirror_cylinder_has_its_cusp_half_a_radius_from_the_axis(
     kit.light(LightKind::Directional { direction: DVec3::new(1.0, -0.6, 0.0), irradiance: [1.0; 3] });
     let photons = trace(&kit.world(), MapKind::Caustic, 300_000);
     let mut counts = [0_u32; 50];
-    for photon in photons.iter().filter(|photon| photon.p.z.abs() < 0.004 && (0.0..1.0).contains(&photon.p.x)) {
+    for photon in photons.iter().filter(|photon| photon.p.z.abs() < 0.004 && (0.0..1.0).contains(&photon.p.x))
+    {
         counts[(photon.p.x * 50.0) as usize] += 1;
     }
     let brightest = (0..50).max_by_key(|&i| counts[i]).unwrap();

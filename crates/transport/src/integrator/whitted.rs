@@ -199,7 +199,8 @@ impl Tracer<'_> {
         if transmits {
             vertex.commit(self.world, &mut set);
         }
-        factor * self.trace(vertex.leave(wi, time), set, Branch { weight, depth, visible: mask::PATH }, sampler)
+        factor
+            * self.trace(vertex.leave(wi, time), set, Branch { weight, depth, visible: mask::PATH }, sampler)
     }
 
     /// Direct light of every lamp.

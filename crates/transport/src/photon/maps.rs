@@ -16,7 +16,7 @@ const PROBES: usize = 1024;
 
 /// Largest radius of a look-up over the median radius at photons: where photons are sparse, an estimate of few in a
 /// bounded disc is better than one of many from far around.
-const SPARSE: f32 = 3.0;
+const SPARSE: f32 = 2.0;
 
 /// The maps that `photon-map` looks up.
 pub struct PhotonMaps {
@@ -76,11 +76,10 @@ impl PhotonMaps {
             stage.make(MapKind::Caustic, asked.caustic_photons, asked.projection, stats);
         let (rebound, rebound_statistics) =
             stage.make(MapKind::Rebound, asked.caustic_photons / 2, asked.projection, stats);
-        let (global, global_statistics) =
-            stage.make(kind, asked.global_photons, ProjectionMaps::None, stats);
+        let (global, global_statistics) = stage.make(kind, asked.global_photons, ProjectionMaps::None, stats);
         Self {
             caustic_estimate: estimate(asked, &caustic, asked.nearest.caustic),
-            rebound_estimate: estimate(asked, &rebound, asked.nearest.global),
+            rebound_estimate: estimate(asked, &rebound, asked.nearest.caustic),
             global_estimate: estimate(asked, &global, asked.nearest.global),
             caustic,
             rebound,
@@ -116,8 +115,13 @@ impl Stage<'_> {
         // Where no light reaches anything specular there are no caustics.
         let emitted = if emitter.fraction() > 0.0 { count } else { 0 };
         let max_bounces = self.max_bounces();
-        let tracer =
-            PhotonTracer { world: self.world, emitter: &emitter, map: kind, seed: self.settings.seed, max_bounces };
+        let tracer = PhotonTracer {
+            world: self.world,
+            emitter: &emitter,
+            map: kind,
+            seed: self.settings.seed,
+            max_bounces,
+        };
         let photons = tracer.trace(emitted, self.cancel, stats);
         let traced = Instant::now();
         let map = PhotonMap::from_photons(&photons, asked.leaf_size);
@@ -144,8 +148,12 @@ impl Stage<'_> {
 /// How a map is looked up.
 fn estimate(asked: &PhotonMapSettings, map: &PhotonMap, nearest: u32) -> Estimate {
     let nearest = nearest as usize;
-    let unbounded =
-        Estimate { kernel: asked.kernel.into(), nearest, max_radius: f32::INFINITY, collection: asked.collection };
+    let unbounded = Estimate {
+        kernel: asked.kernel.into(),
+        nearest,
+        max_radius: f32::INFINITY,
+        collection: asked.collection,
+    };
     let max_radius = asked.max_radius.map_or_else(|| bounded_radius(map, unbounded), |radius| radius as f32);
     Estimate { max_radius, ..unbounded }
 }

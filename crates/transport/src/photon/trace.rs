@@ -114,8 +114,7 @@ impl PhotonTracer<'_> {
                 break;
             }
             stats.photons += 1;
-            let mut sampler =
-                Sampler::new(SamplerKind::Sobol, self.seed, (self.map.tag(), u32::MAX), number);
+            let mut sampler = Sampler::new(SamplerKind::Sobol, self.seed, (self.map.tag(), u32::MAX), number);
             if let Some(start) = self.emitter.emit(&mut sampler) {
                 Flight::new(self, start).run(&mut sampler, &mut photons, &mut stats);
             }

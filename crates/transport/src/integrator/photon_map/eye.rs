@@ -123,7 +123,9 @@ impl<'a> Eye<'a> {
             return (Spectrum::ZERO, role);
         }
         match role {
-            Role::Specular if strand.origin != Origin::Camera || vertex.bsdf.is_delta() => (Spectrum::ZERO, role),
+            Role::Specular if strand.origin != Origin::Camera || vertex.bsdf.is_delta() => {
+                (Spectrum::ZERO, role)
+            }
             Role::Specular => (self.direct_light(vertex, strand, sampler), role),
             Role::Gather => (self.first_light(vertex, strand, role, sampler), role),
             Role::LookUp | Role::LookUpAll => {
@@ -140,7 +142,13 @@ impl<'a> Eye<'a> {
     }
 
     /// Light from the lights, straight or over specular surfaces; where rays gather, that of caustics elsewhere.
-    fn first_light(&mut self, vertex: &Vertex, strand: &Strand, role: Role, sampler: &mut Sampler) -> Spectrum {
+    fn first_light(
+        &mut self,
+        vertex: &Vertex,
+        strand: &Strand,
+        role: Role,
+        sampler: &mut Sampler,
+    ) -> Spectrum {
         let mut light = self.direct_light(vertex, strand, sampler);
         let maps = self.maps;
         if strand.origin == Origin::Camera {

@@ -70,7 +70,12 @@ impl Strand {
     /// One of `count` strands that share the work of this one.
     pub(super) fn split(&self, count: u32) -> Self {
         let share = 1.0 / count as f32;
-        Self { throughput: self.throughput * share, scale: self.scale * share, is_split: true, ..self.clone() }
+        Self {
+            throughput: self.throughput * share,
+            scale: self.scale * share,
+            is_split: true,
+            ..self.clone()
+        }
     }
 
     /// Walks to the next surface; the light of the surroundings or of the surface is added to `light`.
