@@ -141,7 +141,22 @@ fn bare_lights() -> Vec<(&'static str, SceneKit)> {
     use SpotFalloff::{LinearInAngle, Smooth};
     let mut sky = stage();
     sky.sky(0.7);
+    let mut projector = stage();
+    let pixels = (0..8 * 6).map(|i| [0.1 + (i % 5) as f32; 3]).collect();
+    let image = ImageData { width: 8, height: 6, pixels };
+    projector
+        .description
+        .textures
+        .push(TextureDescription::new("s", TextureKind::Image(Arc::new(image))).into());
+    projector.light(LightKind::Projector {
+        placement: Transform::look_at(DVec3::new(0.4, 2.0, 0.3), DVec3::new(0.2, 0.0, 0.0), DVec3::Z)
+            .unwrap(),
+        fov: 1.2,
+        image: Some("s".into()),
+        irradiance: [2.0; 3],
+    });
     vec![
+        ("projector", projector),
         ("point", with_light(point(DVec3::new(0.4, 2.0, 0.3)))),
         ("wide spot", with_light(spot(Smooth, 1.2, 0.3))),
         ("narrow spot", with_light(spot(LinearInAngle, 0.2, 0.1))),

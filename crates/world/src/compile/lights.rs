@@ -1,10 +1,13 @@
 //! Lights without a shape.
 
 use super::{Library, RGB_LANES, lanes};
-use crate::light::{DirectionalLight, EnvironmentLight, Light, PointLight, SceneSphere, SkyImage, SpotLight};
+use crate::light::{
+    DirectionalLight, EnvironmentLight, Light, PointLight, ProjectorLight, SceneSphere, SkyImage, Slide,
+    SpotLight,
+};
 use crate::texture::Texture;
 use hyaline_math::{Bounds, DVec3};
-use hyaline_scene::{LightDescription, LightKind, Located, SceneError};
+use hyaline_scene::{ImageData, LightDescription, LightKind, Located, SceneError};
 use hyaline_spectrum::Spectrum;
 
 /// Lights without a shape, compiled.
@@ -86,9 +89,9 @@ fn compile(
                 }
             })
         }
-        LightKind::Projector { .. } => {
-            let message = format!("light '{}': projectors can't be rendered yet", light.name);
-            return Err(SceneError::at(&light.source, message).with_remedy("make it a spot"));
+        LightKind::Projector { placement, fov, image, irradiance } => {
+            let slide = image.as_ref().map(|name| slide(library, textures, name)).transpose()?;
+            Light::Projector(ProjectorLight::new(placement, *fov as f32, lanes(*irradiance), slide))
         }
         LightKind::Ambient { .. } => unreachable!("ambient terms are summed, not compiled"),
     })
@@ -100,13 +103,32 @@ fn sky_image(
     name: &Located<String>,
     factor: Spectrum,
 ) -> Result<SkyImage, SceneError> {
-    let texture = &textures[library.textures.find(name)?];
-    let image = texture.image().and_then(|image| {
+    image_from(library, textures, name, "sky", |image| {
         let pixels = image.pixels.iter().map(|&color| lanes(color) * factor).collect();
         SkyImage::new(image.width, image.height, pixels)
-    });
-    image.ok_or_else(|| {
-        let message = format!("texture '{}' is no image, so it can't be a sky", name.value);
+    })
+}
+
+fn slide(library: &Library, textures: &[Texture], name: &Located<String>) -> Result<Slide, SceneError> {
+    image_from(library, textures, name, "slide", |image| {
+        let pixels = image.pixels.iter().map(|&color| lanes(color)).collect();
+        Slide::new(image.width, image.height, pixels, RGB_LANES)
+    })
+}
+
+/// What `make` makes of the image of a texture.
+///
+/// - `use_of`: what messages call it.
+fn image_from<T>(
+    library: &Library,
+    textures: &[Texture],
+    name: &Located<String>,
+    use_of: &str,
+    make: impl FnOnce(&ImageData) -> Option<T>,
+) -> Result<T, SceneError> {
+    let texture = &textures[library.textures.find(name)?];
+    texture.image().and_then(|image| make(image)).ok_or_else(|| {
+        let message = format!("texture '{}' is no image, so it can't be a {use_of}", name.value);
         SceneError::at(&name.source, message).with_remedy("name a texture that has a file")
     })
 }

@@ -10,6 +10,7 @@ mod environment;
 mod media;
 mod mesh;
 mod point;
+mod projector;
 mod sample;
 mod set;
 mod shape;
@@ -26,6 +27,7 @@ pub use environment::{EnvironmentLight, RestrictedSky, SkyDirection};
 pub use media::LightMedia;
 pub use mesh::MeshLight;
 pub use point::PointLight;
+pub use projector::{ProjectorLight, Slide};
 pub use sample::{DirectSample, EmissionPdf, EmissionSample, LightPoint, SceneSphere};
 pub use set::{DIRECT_UNIFORM_SHARE, LightChoice, LightSampler, LightSet};
 pub use shape::ShapeLight;
@@ -45,6 +47,8 @@ pub enum Light {
     Point(PointLight),
     /// A cone of light.
     Spot(SpotLight),
+    /// An image thrown from a point.
+    Projector(ProjectorLight),
     /// Parallel light from infinitely far.
     Directional(DirectionalLight),
     /// An analytic shape that shines.
@@ -67,6 +71,7 @@ impl Light {
         match self {
             Self::Point(light) => light.sample_direct(p),
             Self::Spot(light) => light.sample_direct(p),
+            Self::Projector(light) => light.sample_direct(p),
             Self::Directional(light) => Some(light.sample_direct()),
             Self::Shape(light) => light.sample_direct(p, u),
             Self::Mesh(light) => light.sample_direct(p, u),
@@ -87,7 +92,7 @@ impl Light {
             (Self::Mesh(light), Some(hit)) => light.pdf_direct(p, wi, hit),
             (Self::Environment(light), None) => light.pdf_direct(wi),
             (Self::Shape(_) | Self::Mesh(_), None) | (Self::Environment(_), Some(_)) => 0.0,
-            (Self::Point(_) | Self::Spot(_) | Self::Directional(_), _) => 0.0,
+            (Self::Point(_) | Self::Spot(_) | Self::Projector(_) | Self::Directional(_), _) => 0.0,
         }
     }
 
@@ -101,7 +106,11 @@ impl Light {
         match self {
             Self::Shape(light) => light.radiance_from(hit, w),
             Self::Mesh(light) => light.radiance_from(hit, w),
-            Self::Point(_) | Self::Spot(_) | Self::Directional(_) | Self::Environment(_) => Spectrum::ZERO,
+            Self::Point(_)
+            | Self::Spot(_)
+            | Self::Projector(_)
+            | Self::Directional(_)
+            | Self::Environment(_) => Spectrum::ZERO,
         }
     }
 
@@ -113,9 +122,12 @@ impl Light {
     pub fn radiance_of_sky(&self, direction: Vec3) -> Spectrum {
         match self {
             Self::Environment(light) => light.radiance(direction),
-            Self::Point(_) | Self::Spot(_) | Self::Directional(_) | Self::Shape(_) | Self::Mesh(_) => {
-                Spectrum::ZERO
-            }
+            Self::Point(_)
+            | Self::Spot(_)
+            | Self::Projector(_)
+            | Self::Directional(_)
+            | Self::Shape(_)
+            | Self::Mesh(_) => Spectrum::ZERO,
         }
     }
 
@@ -129,6 +141,7 @@ impl Light {
         match self {
             Self::Point(light) => Some(light.sample_emission(u_direction)),
             Self::Spot(light) => light.sample_emission(u_direction),
+            Self::Projector(light) => light.sample_emission(u_direction),
             Self::Directional(light) => Some(light.sample_emission(u_position)),
             Self::Shape(light) => light.sample_emission(u_position, u_direction),
             Self::Mesh(light) => light.sample_emission(u_position, u_direction),
@@ -144,6 +157,7 @@ impl Light {
         match self {
             Self::Point(_) => PointLight::pdf_emission(),
             Self::Spot(light) => light.pdf_emission(direction),
+            Self::Projector(light) => light.pdf_emission(direction),
             Self::Directional(light) => light.pdf_emission(),
             Self::Shape(light) => light.pdf_emission(n, direction),
             Self::Mesh(light) => light.pdf_emission(n, direction),
@@ -162,7 +176,11 @@ impl Light {
         match self {
             Self::Shape(light) => light.emission_at(sample, frame, u),
             Self::Mesh(light) => light.emission_at(sample, frame, u),
-            Self::Point(_) | Self::Spot(_) | Self::Directional(_) | Self::Environment(_) => None,
+            Self::Point(_)
+            | Self::Spot(_)
+            | Self::Projector(_)
+            | Self::Directional(_)
+            | Self::Environment(_) => None,
         }
     }
 
@@ -172,7 +190,11 @@ impl Light {
         match self {
             Self::Shape(light) => light.cone_at(frame, unit_box),
             Self::Mesh(light) => light.cone_at(frame, unit_box),
-            Self::Point(_) | Self::Spot(_) | Self::Directional(_) | Self::Environment(_) => Cone::ALL,
+            Self::Point(_)
+            | Self::Spot(_)
+            | Self::Projector(_)
+            | Self::Directional(_)
+            | Self::Environment(_) => Cone::ALL,
         }
     }
 
@@ -181,6 +203,7 @@ impl Light {
         match self {
             Self::Point(light) => Some(light.position),
             Self::Spot(light) => Some(light.position()),
+            Self::Projector(light) => Some(light.position()),
             Self::Directional(_) | Self::Shape(_) | Self::Mesh(_) | Self::Environment(_) => None,
         }
     }
@@ -191,6 +214,7 @@ impl Light {
         match self {
             Self::Point(_) => PointLight::cone_of_emission(unit_box),
             Self::Spot(light) => light.cone_of_emission(unit_box),
+            Self::Projector(light) => light.cone_of_emission(unit_box),
             Self::Directional(_) | Self::Shape(_) | Self::Mesh(_) | Self::Environment(_) => Cone::ALL,
         }
     }
@@ -200,6 +224,7 @@ impl Light {
         match self {
             Self::Point(light) => light.intensity,
             Self::Spot(light) => light.intensity_toward(direction),
+            Self::Projector(light) => light.intensity_toward(direction),
             Self::Directional(_) | Self::Shape(_) | Self::Mesh(_) | Self::Environment(_) => Spectrum::ZERO,
         }
     }
@@ -209,6 +234,7 @@ impl Light {
         match self {
             Self::Point(_) => 4.0 * std::f32::consts::PI,
             Self::Spot(light) => light.solid_angle(),
+            Self::Projector(light) => light.solid_angle(),
             Self::Directional(_) | Self::Shape(_) | Self::Mesh(_) | Self::Environment(_) => 0.0,
         }
     }
@@ -218,7 +244,11 @@ impl Light {
         match self {
             Self::Shape(light) => light.is_two_sided(),
             Self::Mesh(light) => light.is_two_sided(),
-            Self::Point(_) | Self::Spot(_) | Self::Directional(_) | Self::Environment(_) => false,
+            Self::Point(_)
+            | Self::Spot(_)
+            | Self::Projector(_)
+            | Self::Directional(_)
+            | Self::Environment(_) => false,
         }
     }
 
@@ -227,6 +257,7 @@ impl Light {
         match self {
             Self::Point(light) => light.power(),
             Self::Spot(light) => light.power(),
+            Self::Projector(light) => light.power(),
             Self::Directional(light) => light.power(),
             Self::Shape(light) => light.power(),
             Self::Mesh(light) => light.power(),

@@ -229,7 +229,7 @@ impl<'w> Builder<'w> {
                 SkyCells::new(sky, parts, blocks, cells).map_or(Projection::Nothing, Projection::Sky)
             }
             Light::Shape(_) | Light::Mesh(_) => self.lamp(index, light, parts),
-            Light::Point(_) | Light::Spot(_) => {
+            Light::Point(_) | Light::Spot(_) | Light::Projector(_) => {
                 PointCells::new(light, parts, self.cells).map_or(Projection::Whole, Projection::Point)
             }
         }
@@ -243,7 +243,7 @@ impl<'w> Builder<'w> {
             Light::Directional(sun) => Discs::new(&sun.scene, objects).map_or_else(whole, Projection::Discs),
             Light::Environment(sky) => Discs::new(sky.scene(), objects).map_or_else(whole, Projection::Discs),
             Light::Shape(_) | Light::Mesh(_) => self.lamp(index, light, &self.targets.merged_objects),
-            Light::Point(_) | Light::Spot(_) => {
+            Light::Point(_) | Light::Spot(_) | Light::Projector(_) => {
                 Cones::new(light, objects).map_or_else(whole, Projection::Cones)
             }
         }

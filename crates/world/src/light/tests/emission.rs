@@ -100,6 +100,33 @@ fn directions_of_wide_bare_lights_follow_the_density() {
 }
 
 #[test]
+fn directions_of_projectors_follow_the_density() {
+    for (seed, light) in projectors().iter().enumerate() {
+        let mut random = Random::from_seed(370 + seed as u64);
+        let sample = || Some(to_array(emit(light, &mut random)?.direction));
+        let pdf = |w| f64::from(light.pdf_emission(Vec3::Y, to_vector(w)).direction);
+        let result = chi_square_sphere(sample, pdf, 60_000, 48, 64);
+        assert!(result.p_value > 1e-4, "{light:?}: {result:?}");
+    }
+}
+
+#[test]
+fn weights_of_projectors_are_their_intensity_over_the_density() {
+    let mut random = Random::from_seed(380);
+    for light in projectors() {
+        let position = light.position().unwrap();
+        for _ in 0..2000 {
+            let sample = emit(&light, &mut random).unwrap();
+            let lit = light.sample_direct(position + sample.direction * 2.0, Vec2::ZERO);
+            let intensity = lit.map_or(0.0, |lit| lit.radiance[0] * 4.0);
+            let expected = intensity / sample.pdf_direction;
+            assert!((sample.weight[0] - expected).abs() < 2e-3 * (1.0 + expected), "{light:?} {sample:?}");
+            assert!((light.intensity(sample.direction)[0] - intensity).abs() < 1e-3 * (1.0 + intensity));
+        }
+    }
+}
+
+#[test]
 fn a_narrow_spot_follows_the_density_in_its_cone() {
     let axis = Vec3::new(0.48, -0.6, 0.64).as_dvec3();
     let frame = Frame::from_normal(axis.as_vec3());

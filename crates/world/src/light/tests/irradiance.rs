@@ -190,3 +190,37 @@ fn the_sky_lights_a_plane_with_its_radiance_times_the_cosine() {
     let relative_deviation = got.variance().sqrt() / got.mean();
     assert!(relative_deviation < 1.5, "the image is sampled badly: {relative_deviation}");
 }
+
+#[test]
+fn a_projector_lights_a_plane_across_its_axis_evenly_and_the_right_way_up() {
+    // Red at the top left, green at the top right, blue in the lower row.
+    let [red, green, blue] =
+        [[1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0]].map(Spectrum::from_lanes);
+    let slide = Slide::new(2, 2, vec![red, green, blue, blue], LANES);
+    let (placement, fov) = (placed(1.0), 1.2);
+    let projector = |slide: Option<Slide>| {
+        Light::Projector(ProjectorLight::new(&placement, fov, Spectrum::splat(L), slide))
+    };
+    let (half_width, n) = (float::tan(0.6), placement.vector(DVec3::Z).as_vec3());
+    for distance in [0.3, 1.0, 40.0] {
+        // Places a quarter of the way from each corner of the image are at the centers of its pixels.
+        let at = |x: f64, y: f64| {
+            placement.point(DVec3::new(x * half_width, y * half_width, -1.0) * distance).as_vec3()
+        };
+        let expected = f64::from(L) / (distance * distance);
+        for (x, y, lane) in [(-0.5, 0.5, 0), (0.5, 0.5, 1), (-0.5, -0.5, 2), (0.5, -0.5, 2)] {
+            let white = irradiance(&projector(None), at(x, y), n, 1).mean();
+            assert!((white / expected - 1.0).abs() < 1e-4, "{white} for {expected}");
+            let sample = projector(slide.clone()).sample_direct(at(x, y), Vec2::ZERO).unwrap();
+            let cosine = f64::from(sample.wi.dot(n));
+            for other in 0..LANES {
+                let got = f64::from(sample.radiance[other]) * cosine;
+                let wanted = if other == lane { expected } else { 0.0 };
+                assert!((got - wanted).abs() < 1e-3 * expected, "{x} {y}: {:?}", sample.radiance);
+            }
+        }
+        for beside in [at(1.01, 0.0), at(0.0, -1.01), placement.point(DVec3::Z * distance).as_vec3()] {
+            assert!(projector(None).sample_direct(beside, Vec2::ZERO).is_none());
+        }
+    }
+}

@@ -188,10 +188,24 @@ fn spots() -> Vec<Light> {
     angles.iter().flat_map(|&(outer, inner)| [Smooth, LinearInAngle].map(|f| spot(outer, inner, f))).collect()
 }
 
+fn projectors() -> Vec<Light> {
+    let mut random = Random::from_seed(4);
+    let pixels = (0..7 * 5).map(|i| {
+        let noise = [(); 3].map(|()| if i % 7 < 2 || i / 7 == 3 { 0.0 } else { random.uniform_f32() });
+        Spectrum::from_lanes([noise[0], noise[1], noise[2], 0.0])
+    });
+    let slide = Slide::new(7, 5, pixels.collect(), LANES);
+    let one = |fov: f32, slide: Option<Slide>| {
+        Light::Projector(ProjectorLight::new(&placed(1.3), fov, Spectrum::splat(L), slide))
+    };
+    vec![one(1.1, slide), one(0.7, None)]
+}
+
 /// All lights without a surface.
 fn bare_lights() -> Vec<Light> {
     let point = PointLight { position: Vec3::new(0.5, 0.25, -1.0), intensity: Spectrum::splat(L) };
     let mut lights = spots();
+    lights.extend(projectors());
     lights.extend([Light::Point(point), directional(), constant_sky(), image_sky()]);
     lights
 }
