@@ -16,7 +16,7 @@ const PROBES: usize = 1024;
 
 /// Largest radius of a look-up over the median radius at photons: where photons are sparse, an estimate of few in a
 /// bounded disc is better than one of many from far around.
-const SPARSE: f32 = 3.0;
+const SPARSE: f32 = 2.0;
 
 /// The maps that `photon-map` looks up.
 pub struct PhotonMaps {
@@ -79,7 +79,7 @@ impl PhotonMaps {
         let (global, global_statistics) = stage.make(kind, asked.global_photons, ProjectionMaps::None, stats);
         Self {
             caustic_estimate: estimate(asked, &caustic, asked.nearest.caustic),
-            rebound_estimate: estimate(asked, &rebound, asked.nearest.global),
+            rebound_estimate: estimate(asked, &rebound, asked.nearest.caustic),
             global_estimate: estimate(asked, &global, asked.nearest.global),
             caustic,
             rebound,
