@@ -43,7 +43,8 @@ type TextReader = fn(&str, &Arc<str>, &Path, &[(String, String)]) -> ResultOrAll
 /// Reads a scene file; its ending (`.toml`, `.xml`) tells the format.
 ///
 /// - `overrides`: pairs of `--set KEY=VALUE`. In TOML any key by its dotted path, array elements by name or index; in
-///   other formats `settings.*`, `film.*`, `camera.*`, `media.NAME.*` and `object.NAME.*`.
+///   other formats `settings.*`, `film.*`, `camera.*`, `media.NAME.*` and `object.NAME.*`; in Mitsuba's also
+///   `default.NAME` for its parameters and `import.two_sided`.
 ///
 /// # Errors
 /// The file can't be read, its ending is unknown or not supported yet, or something in it is wrong.

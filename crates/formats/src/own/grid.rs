@@ -139,6 +139,7 @@ mod tests {
             ("file = 'bad.raw', size = [2, 2, 1]", "NaN in the cell (0, 1, 0)"),
             ("file = 'smoke.raw', size = [4, 1, 0]", "`size` must be from 1 to"),
             ("file = 'smoke.raw', size = [4, 1, 1], max = [1, 0, 1]", "flat"),
+            ("file = 'smoke.raw', size = [4, 1, 1], max = [1, -1, 1]", "inside out"),
             ("file = 'none.raw', size = [4, 1, 1]", "there is no such file"),
             ("file = 'smoke.vol', sise = [1, 1, 1]", "did you mean 'size'"),
             (
