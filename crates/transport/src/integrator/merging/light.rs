@@ -67,7 +67,7 @@ fn visit(tree: &PointTree<CausticPhoton>, center: Vec3, radius: f32, mut f: impl
 
 /// Photons that a pass sends out: none where no light can reach anything polished.
 pub(super) fn count(emitter: &PhotonEmitter<'_>, view: &View) -> u32 {
-    if emitter.fraction() > 0.0 { (2 * view.width * view.height).clamp(1 << 16, 1 << 20) } else { 0 }
+    if emitter.fraction() > 0.0 { (2 * view.width * view.height).clamp(1 << 12, 1 << 20) } else { 0 }
 }
 
 /// Sends out the photons of a pass.

@@ -1,0 +1,194 @@
+//! `merging` against `path`: where the radius is small the two are one, whatever the light has gone through.
+
+mod pictures;
+mod scene_kit;
+
+use hyaline_math::DVec3;
+use hyaline_scene::*;
+use hyaline_testkit::{Moments, welch_t};
+use hyaline_transport::RenderSettings;
+use hyaline_world::World;
+use pictures::{Shot, luminance};
+use scene_kit::*;
+use std::ops::Range;
+
+/// Pictures made of each scene.
+const SEEDS: u64 = 12;
+/// Chance of calling pictures different that are not.
+const LEVEL: f64 = 1e-3;
+/// Passes so late that their radius is a fortieth of the first one's: with pixels as large as these, blur would carry
+/// light across edges, out of the glass that it is in.
+const LATE: Range<u32> = 4_000_000..4_000_024;
+
+/// Mean of a picture over some passes, for `SEEDS` seeds.
+fn means(world: &World, integrator: &str, passes: Range<u32>) -> Moments {
+    let mut moments = Moments::new();
+    for seed in 0..SEEDS {
+        let settings = RenderSettings { seed, ..settings() };
+        let shot = Shot { world, integrator, settings, size: (8, 8) };
+        let (mut sum, mut count) = (0.0, 0);
+        shot.render(shot.full_frame(), passes.clone(), |_, samples| {
+            sum += samples.iter().map(luminance).sum::<f64>();
+            count += samples.len();
+        });
+        moments.push(sum / f64::from(count as u32));
+    }
+    moments
+}
+
+/// Fails unless the means agree, and are known to `power`.
+fn assert_same(a: &Moments, b: &Moments, power: f64, what: &str) {
+    let error = (a.variance_of_mean() + b.variance_of_mean()).sqrt();
+    let difference = 100.0 * (a.mean() / b.mean() - 1.0);
+    println!("{what}: {} and {} ± {error}, {difference:+.2} %", a.mean(), b.mean());
+    assert!(error < power * b.mean(), "{what}: an error of {error} in {} shows nothing", b.mean());
+    let chance =
+        welch_t(a.mean(), a.variance_of_mean(), a.count(), b.mean(), b.variance_of_mean(), b.count());
+    assert!(chance > LEVEL, "{what}: {} and {} ± {error}, p = {chance}", a.mean(), b.mean());
+}
+
+/// A matte hollow with a glass ball and a lamp in it.
+fn hollow(lamp: impl FnOnce(&mut SceneKit)) -> SceneKit {
+    let mut kit = SceneKit::new();
+    kit.matte("matte", 0.7).surface("wall", sphere(DVec3::ZERO, 2.0), "matte");
+    kit.medium("glass", 1.5).solid("lens", sphere(DVec3::new(0.5, -0.5, -0.8), 0.6), "glass");
+    lamp(&mut kit);
+    kit.camera(DVec3::new(0.0, 0.1, 1.2), DVec3::new(0.1, -0.2, -1.0));
+    kit
+}
+
+fn lamp_ball(kit: &mut SceneKit) {
+    kit.lamp("lamp", sphere(DVec3::new(-0.6, 0.9, 0.3), 0.3), 4.0);
+}
+
+fn assert_as_path(world: &World, what: &str) {
+    assert_same(&means(world, "merging", LATE), &means(world, "path", 0..120), 0.015, what);
+}
+
+#[test]
+fn a_lamp_seen_through_glass_counts_once() {
+    assert_as_path(&hollow(lamp_ball).world(), "glass ball");
+}
+
+/// Adds finishes from polished to half matte: chains of them end at the wall or at each other.
+fn add_rough(kit: &mut SceneKit, roughness: f32) {
+    let white = || ColorSource::Constant([1.0; 3]);
+    let roughness = ScalarSource::Constant(roughness);
+    let glass = MaterialKind::Dielectric { roughness: roughness.clone(), tint: (white(), white()) };
+    let metal = MaterialKind::Conductor { metal: Metal::Named("silver".into()), roughness, tint: white() };
+    kit.material("rough", glass).material("metal", metal);
+    let boundary = BoundaryDescription::Solid { medium: "glass".into() };
+    kit.object("frosted", sphere(DVec3::new(-0.6, -0.5, -0.9), 0.5), boundary, "rough");
+    kit.surface("ball", sphere(DVec3::new(0.2, 0.5, -1.0), 0.3), "metal");
+}
+
+#[test]
+fn chains_of_rough_glass_and_metal_lose_and_double_no_light() {
+    for roughness in [0.25, 0.45, 0.7] {
+        let mut kit = hollow(lamp_ball);
+        add_rough(&mut kit, roughness);
+        assert_as_path(&kit.world(), &format!("roughness {roughness}"));
+    }
+}
+
+#[test]
+fn a_varnished_wall_reflects_caustics_and_receives_them() {
+    let mut kit = hollow(lamp_ball);
+    let plastic = MaterialKind::Plastic {
+        diffuse: ColorSource::Constant([0.5; 3]),
+        specular: ColorSource::Constant([1.0; 3]),
+        ior: 1.5,
+        roughness: ScalarSource::Constant(0.0),
+        nonlinear: false,
+    };
+    kit.material("varnish", plastic);
+    kit.surface("board", rectangle(DVec3::new(0.0, -1.2, -0.6), DVec3::Z, DVec3::X), "varnish");
+    assert_as_path(&kit.world(), "varnish");
+}
+
+#[test]
+fn under_water_radiance_and_photons_agree() {
+    // Camera and matte plane on one side of the surface, the lamp on the other; and the reverse.
+    for (camera, plane, lamp) in [(-0.2, -1.0, 0.8), (0.2, 1.0, -0.8), (0.4, -0.6, 0.9)] {
+        let mut kit = SceneKit::new();
+        kit.medium("water", 1.333).matte("matte", 0.6);
+        kit.interface("surface", floor(0.0, 20.0), None, Some("water"));
+        let up = if plane < lamp { 1.0 } else { -1.0 };
+        let ground = rectangle(DVec3::Y * plane, DVec3::Z * 20.0, DVec3::X * (20.0 * up));
+        kit.surface("plane", ground, "matte");
+        let square = rectangle(DVec3::Y * lamp, DVec3::X * 1.5, DVec3::Z * (1.5 * up));
+        kit.lamp("lamp", square, 5.0).camera(DVec3::new(0.0, camera, 1.5), DVec3::Y * plane);
+        assert_as_path(&kit.world(), &format!("camera {camera}, plane {plane}, lamp {lamp}"));
+    }
+}
+
+#[test]
+fn the_sky_through_glass_counts_once() {
+    let mut kit = SceneKit::new();
+    kit.matte("matte", 0.6).surface("floor", floor(-0.6, 3.0), "matte");
+    kit.medium("glass", 1.5).solid("ball", sphere(DVec3::new(0.0, 0.0, -0.4), 0.5), "glass");
+    add_rough(&mut kit, 0.3);
+    kit.sky(1.0).camera(DVec3::new(0.0, 0.8, 2.0), DVec3::new(0.0, -0.4, -0.3));
+    assert_as_path(&kit.world(), "sky");
+}
+
+fn fog(kit: &mut SceneKit) {
+    let scattering = Scattering { sigma_s: [0.2, 0.4, 0.5], phase: PhaseDescription::from_mean_cosine(0.4) };
+    let medium = MediumDescription {
+        absorption: Absorption::SigmaA([0.1, 0.02, 0.05]),
+        scattering: Some(scattering),
+        ..MediumDescription::clear("fog", IndexDescription::Constant(1.0))
+    };
+    kit.description.media.push(medium.into());
+    kit.description.surrounding = Some("fog".into());
+}
+
+#[test]
+fn in_fog_photons_and_paths_agree() {
+    let mut kit = hollow(lamp_ball);
+    fog(&mut kit);
+    assert_as_path(&kit.world(), "fog");
+}
+
+#[test]
+fn a_point_is_a_very_small_lamp() {
+    // Path tracing can't tell: no path hits a point. Merging of small lamps is tested above.
+    let at = DVec3::new(-0.6, 0.9, 0.3);
+    let (radius, intensity) = (0.02_f64, 2.0_f64);
+    for roughness in [0.0, 0.3] {
+        let mut point = hollow(|kit| {
+            kit.light(LightKind::Point { position: at, intensity: [intensity as f32; 3] });
+        });
+        // A ball of this radiance has the same intensity from afar.
+        let radiance = intensity / (std::f64::consts::PI * radius * radius);
+        let mut ball = hollow(|kit| {
+            kit.lamp("lamp", sphere(at, radius), radiance as f32);
+        });
+        if roughness > 0.0 {
+            add_rough(&mut point, roughness);
+            add_rough(&mut ball, roughness);
+        }
+        let (a, b) = (means(&point.world(), "merging", LATE), means(&ball.world(), "merging", LATE));
+        assert_same(&a, &b, 0.015, &format!("point, roughness {roughness}"));
+    }
+}
+
+#[test]
+fn a_pass_has_the_same_bits_on_any_number_of_threads() {
+    let mut kit = hollow(lamp_ball);
+    fog(&mut kit);
+    let world = kit.world();
+    let shot = Shot { world: &world, integrator: "merging", settings: settings(), size: (8, 8) };
+    let render = |threads: usize| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        let mut all = Vec::new();
+        pool.install(|| {
+            shot.render(shot.full_frame(), 0..2, |_, samples| all.extend(samples.iter().map(|s| s.beauty)))
+        });
+        all
+    };
+    let one = render(1);
+    assert!(one.iter().flatten().any(|&value| value > 0.0));
+    assert_eq!(one, render(2));
+    assert_eq!(one, render(3));
+}
