@@ -83,7 +83,7 @@ impl Default for PhotonMapSettings {
             max_radius: None,
             kernel: PhotonKernel::default(),
             collection: Collection::default(),
-            leaf_size: 32,
+            leaf_size: 64,
             projection: ProjectionMaps::default(),
             projection_cells: 64,
             final_gather: true,
