@@ -80,8 +80,7 @@ impl Rivals {
         let coordinates: Vec<[f32; 3]> = photons.iter().map(|p| p.to_array()).collect();
         let points = photons.iter().zip(0..).map(|(p, i)| (*p, [i, 0])).collect();
         let start = Instant::now();
-        let ours =
-            PointTree::build(points, std::env::var("LEAF").ok().and_then(|x| x.parse().ok()).unwrap_or(64));
+        let ours = PointTree::build(points, 64);
         let our_time = start.elapsed().as_secs_f64();
         let start = Instant::now();
         let theirs = ImmutableKdTree::new_from_slice(&coordinates).expect("there are photons");
@@ -155,9 +154,7 @@ impl Rivals {
                 }
                 Kind::Within(radius) => {
                     let query = self.theirs.query(&center).within::<SquaredEuclidean<f32>>(radius * radius);
-                    for found in query.unsorted().execute() {
-                        answer = answer.with(found.distance, found.item);
-                    }
+                    query.unsorted().visit(|found| answer = answer.with(found.distance, found.item));
                 }
             }
         }
