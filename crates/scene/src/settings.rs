@@ -83,7 +83,7 @@ impl Default for PhotonMapSettings {
             max_radius: None,
             kernel: PhotonKernel::default(),
             collection: Collection::default(),
-            leaf_size: 32,
+            leaf_size: 64,
             projection: ProjectionMaps::default(),
             projection_cells: 64,
             final_gather: true,
@@ -138,9 +138,10 @@ impl Default for PhotonKernel {
 pub enum Collection {
     /// In a ball.
     Sphere,
-    /// In a disc about the normal: photons farther off its plane are left out.
+    /// In a disc about the normal: photons farther off its plane are left out. With n nearest it is the smallest disc of
+    /// these proportions that holds n.
     Disc {
-        /// Half the disc's thickness as a fraction of its radius, 0…1.
+        /// Half the disc's thickness as a fraction of its radius (the one found, not the largest), 0…1.
         thickness: f32,
     },
 }

@@ -9,6 +9,7 @@ use hyaline_scene::*;
 use hyaline_transport::photon::gather::PhotonMap;
 use hyaline_transport::photon::record::{Photon, PhotonKind};
 use hyaline_transport::photon::trace::MapKind;
+use hyaline_world::World;
 use photon_kit::*;
 use scene_kit::*;
 use std::f64::consts::PI;
@@ -21,6 +22,14 @@ fn point_light(position: DVec3) -> LightKind {
 
 fn map(photons: &[Photon]) -> PhotonMap {
     PhotonMap::from_photons(photons, 32)
+}
+
+fn of_kind(kind: PhotonKind, photons: Vec<Photon>) -> Vec<Photon> {
+    photons.into_iter().filter(|photon| photon.kind == kind).collect()
+}
+
+fn caustics(world: &World, count: u32) -> Vec<Photon> {
+    of_kind(PhotonKind::Caustic, trace(world, MapKind::Caustic, count))
 }
 
 #[test]
@@ -106,7 +115,7 @@ fn parallel_light_in_a_mirror_cylinder_has_its_cusp_half_a_radius_from_the_axis(
         ShapeDescription::Cylinder { radius: 1.0, y: [0.0, 0.8], phi: [-0.5 * PI, 0.5 * PI], capped: false };
     kit.surface("band", cylinder, "mirror");
     kit.light(LightKind::Directional { direction: DVec3::new(1.0, -0.6, 0.0), irradiance: [1.0; 3] });
-    let photons = trace(&kit.world(), MapKind::Caustic, 300_000);
+    let photons = caustics(&kit.world(), 300_000);
     let mut counts = [0_u32; 50];
     for photon in photons.iter().filter(|photon| photon.p.z.abs() < 0.004 && (0.0..1.0).contains(&photon.p.x))
     {
@@ -124,7 +133,7 @@ fn parallel_light_through_a_ball_lens_meets_half_a_radius_behind_it() {
     kit.matte("matte", 0.5).surface("floor", floor(-1.2, 4.0), "matte");
     kit.medium("glass", 1.5).solid("lens", sphere(DVec3::ZERO, radius), "glass");
     kit.light(LightKind::Directional { direction: -DVec3::Y, irradiance: [1.0; 3] });
-    let photons = trace(&kit.world(), MapKind::Caustic, 300_000);
+    let photons = caustics(&kit.world(), 300_000);
     let mut foci = Vec::new();
     for photon in photons.iter().filter(|photon| photon.bounces == 2) {
         let (p, d) = (photon.p.as_dvec3(), photon.direction.as_dvec3());
@@ -145,14 +154,20 @@ fn caustic_photons_have_met_specular_surfaces_alone() {
     let mut kit = hollow(0.8, 2.0);
     kit.medium("glass", 1.5).solid("lens", sphere(DVec3::new(0.3, -0.4, 0.2), 0.8), "glass");
     let world = kit.world();
-    let of_kind = |kind: PhotonKind| {
-        move |photons: Vec<Photon>| {
-            photons.into_iter().filter(|photon| photon.kind == kind).collect::<Vec<_>>()
-        }
-    };
-    let aimed = trace(&world, MapKind::Caustic, 100_000);
-    assert!(aimed.iter().all(|photon| photon.kind == PhotonKind::Caustic && photon.bounces > 0));
-    let plain = of_kind(PhotonKind::Caustic)(trace(&world, MapKind::Global, 400_000));
+    let aimed = caustics(&world, 100_000);
+    assert!(aimed.iter().all(|photon| photon.bounces > 0));
+    let plain = of_kind(PhotonKind::Caustic, trace(&world, MapKind::Global, 400_000));
     assert_close(power(&aimed), power(&plain), 0.03, "power of the caustics, with and without projection");
     assert!(aimed.len() > plain.len() / 2, "{} of 100 000, {} of 400 000", aimed.len(), plain.len());
+}
+
+#[test]
+fn caustics_throw_their_albedo_on_a_closed_wall() {
+    let albedo = 0.6_f32;
+    let mut kit = hollow(albedo, 2.0);
+    kit.medium("glass", 1.5).solid("lens", sphere(DVec3::new(0.3, -0.4, 0.2), 0.8), "glass");
+    let photons = trace(&kit.world(), MapKind::Caustic, 100_000);
+    let first = power(&of_kind(PhotonKind::Caustic, photons.clone()));
+    let second = power(&of_kind(PhotonKind::Indirect, photons));
+    assert_close(second, f64::from(albedo) * first, 0.02, "power thrown by caustics");
 }

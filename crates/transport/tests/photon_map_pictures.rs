@@ -20,9 +20,19 @@ const LEVEL: f64 = 1e-3;
 
 /// Mean of a picture over `passes` passes, for `SEEDS` seeds.
 fn means(world: &World, integrator: &str, photon_map: PhotonMapSettings, passes: u32) -> Moments {
+    means_to_depth(world, integrator, photon_map, passes, None)
+}
+
+fn means_to_depth(
+    world: &World,
+    integrator: &str,
+    photon_map: PhotonMapSettings,
+    passes: u32,
+    max_depth: Option<u32>,
+) -> Moments {
     let mut moments = Moments::new();
     for seed in 0..SEEDS {
-        let settings = RenderSettings { seed, photon_map, ..settings() };
+        let settings = RenderSettings { seed, photon_map, max_depth, ..settings() };
         let shot = Shot { world, integrator, settings, size: (8, 8) };
         let (mut sum, mut count) = (0.0, 0);
         shot.render(shot.full_frame(), 0..passes, |_, samples| {
@@ -127,6 +137,17 @@ fn light_of_a_point_through_glass_comes_from_the_caustic_map_in_every_way() {
     let first = means(&world, "photon-map", plain, 8);
     for (what, photon_map) in others {
         assert_same(&means(&world, "photon-map", photon_map, 8), &first, 0.015, what);
+    }
+}
+
+#[test]
+fn paths_are_as_long_as_is_asked_for() {
+    let world = hollow(lamp_ball).world();
+    let [plain, _, straight, ..] = ways().map(|(_, photon_map)| photon_map);
+    for (depth, photon_map) in [(1, plain), (2, plain), (3, plain), (2, straight)] {
+        let maps = means_to_depth(&world, "photon-map", photon_map, 6, Some(depth));
+        let paths = means_to_depth(&world, "path", photon_map, 60, Some(depth));
+        assert_same(&maps, &paths, 0.02, &format!("{depth} bounces"));
     }
 }
 

@@ -46,8 +46,7 @@ fn a_picture_is_the_same_for_any_number_of_threads() {
     for (threads, picture) in pictures.iter().enumerate().skip(1) {
         assert!(*picture == pictures[0], "with {} threads the picture is another", threads + 1);
     }
-    // For the caustics, for what they throw on other surfaces, for all light.
-    assert_eq!(pictures[0].1.photons, 30_000 + 15_000 + 30_000);
+    assert_eq!(pictures[0].1.photons, 60_000);
 }
 
 #[test]

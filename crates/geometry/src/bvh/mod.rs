@@ -19,7 +19,7 @@ mod tests;
 mod traverse;
 
 pub use mesh_bvh::MeshBvh;
-pub use simd::SimdLevel;
+pub use simd::{SimdLevel, with_capacity_in_large_pages};
 
 pub(crate) use collapse::build;
 pub(crate) use node::Tree;

@@ -15,10 +15,10 @@ use std::num::NonZero;
 use std::time::Instant;
 
 /// Rounds of the table, of which the fastest counts.
-const ROUNDS: usize = 7;
+const ROUNDS: usize = 21;
 
 /// Places of a batch that is timed as one.
-const BATCH_SIZE: usize = 250;
+const BATCH_SIZE: usize = 50;
 
 /// Places at which photons are asked for.
 const QUERY_COUNT: usize = 10_000;
@@ -80,7 +80,7 @@ impl Rivals {
         let coordinates: Vec<[f32; 3]> = photons.iter().map(|p| p.to_array()).collect();
         let points = photons.iter().zip(0..).map(|(p, i)| (*p, [i, 0])).collect();
         let start = Instant::now();
-        let ours = PointTree::build(points, 32);
+        let ours = PointTree::build(points, 64);
         let our_time = start.elapsed().as_secs_f64();
         let start = Instant::now();
         let theirs = ImmutableKdTree::new_from_slice(&coordinates).expect("there are photons");
@@ -125,12 +125,15 @@ impl Rivals {
             match *kind {
                 Kind::Nearest(k) => {
                     self.ours.nearest(&Region { center, radius: f32::INFINITY, disc: None }, k, All, found);
-                    found.iter().for_each(|(distance2, i)| answer.add(distance2, self.ours.payload(i)[0]));
+                    for (distance2, i) in found.iter() {
+                        answer = answer.with(distance2, self.ours.payload(i)[0]);
+                    }
                 }
                 Kind::Within(radius) => {
                     let region = Region { center, radius, disc: None };
-                    self.ours
-                        .within(&region, &mut |i, distance2| answer.add(distance2, self.ours.payload(i)[0]));
+                    answer = self.ours.fold_within(&region, answer, |answer, i, distance2| {
+                        answer.with(distance2, self.ours.payload(i)[0])
+                    });
                 }
             }
         }
@@ -145,19 +148,13 @@ impl Rivals {
                 Kind::Nearest(k) => {
                     let k = NonZero::new(k).expect("k is positive");
                     let query = self.theirs.query(&center).nearest_n::<SquaredEuclidean<f32>>(k);
-                    query
-                        .unsorted()
-                        .execute()
-                        .iter()
-                        .for_each(|found| answer.add(found.distance, found.item));
+                    for found in query.unsorted().execute() {
+                        answer = answer.with(found.distance, found.item);
+                    }
                 }
                 Kind::Within(radius) => {
                     let query = self.theirs.query(&center).within::<SquaredEuclidean<f32>>(radius * radius);
-                    query
-                        .unsorted()
-                        .execute()
-                        .iter()
-                        .for_each(|found| answer.add(found.distance, found.item));
+                    query.unsorted().visit(|found| answer = answer.with(found.distance, found.item));
                 }
             }
         }
@@ -167,10 +164,12 @@ impl Rivals {
 
 impl Answer {
     #[inline]
-    fn add(&mut self, distance2: f32, item: u32) {
-        self.count += 1;
-        self.items += u64::from(item);
-        self.distance2 += f64::from(distance2);
+    fn with(self, distance2: f32, item: u32) -> Self {
+        Self {
+            count: self.count + 1,
+            items: self.items + u64::from(item),
+            distance2: self.distance2 + f64::from(distance2),
+        }
     }
 }
 

@@ -2,6 +2,7 @@
 
 use super::emission::PhotonEmitter;
 use super::gather::{Estimate, PhotonMap};
+use super::record::{Photon, PhotonKind};
 use super::trace::{MapKind, PhotonTracer};
 use super::tree::Nearest;
 use crate::RenderSettings;
@@ -22,8 +23,7 @@ const SPARSE: f32 = 2.0;
 pub struct PhotonMaps {
     /// Light over specular surfaces alone.
     pub caustic: PhotonMap,
-    /// Caustics as other surfaces are lit by them: few rays that gather would meet them, and each would bring a lot.
-    /// Empty where nothing gathers.
+    /// What caustics throw on other surfaces: few rays that gather would meet them, and each would bring a lot.
     pub rebound: PhotonMap,
     /// All light, or all that is neither direct nor caustic: see `holds_all`.
     pub global: PhotonMap,
@@ -31,7 +31,7 @@ pub struct PhotonMaps {
     pub holds_all: bool,
     /// How the caustic map is looked up.
     pub caustic_estimate: Estimate,
-    /// How the map of lit caustics is looked up.
+    /// How the map of what caustics throw is looked up.
     pub rebound_estimate: Estimate,
     /// How the global map is looked up.
     pub global_estimate: Estimate,
@@ -59,7 +59,7 @@ pub struct MapStatistics {
 pub struct PhotonStatistics {
     /// The caustic map.
     pub caustic: MapStatistics,
-    /// The map of light that caustics throw on other surfaces.
+    /// The map of what caustics throw on other surfaces, from the same photons.
     pub rebound: MapStatistics,
     /// The global map.
     pub global: MapStatistics,
@@ -70,79 +70,84 @@ impl PhotonMaps {
     pub fn new(world: &World, settings: &RenderSettings, cancel: &AtomicBool, stats: &mut Stats) -> Self {
         let asked = &settings.photon_map;
         let holds_all = asked.final_gather && !asked.exclude_direct;
-        let stage = Stage { world, settings, cancel };
         let kind = if holds_all { MapKind::Global } else { MapKind::Indirect };
-        let (caustic, caustic_statistics) =
-            stage.make(MapKind::Caustic, asked.caustic_photons, asked.projection, stats);
-        let (rebound, rebound_statistics) =
-            stage.make(MapKind::Rebound, asked.caustic_photons / 2, asked.projection, stats);
-        let (global, global_statistics) = stage.make(kind, asked.global_photons, ProjectionMaps::None, stats);
+        let caustics = Traced::new(world, settings, MapKind::Caustic, cancel, stats);
+        let (caustic, rebound) = caustics.split(|photon| photon.kind == PhotonKind::Caustic);
+        let [caustic, rebound, global] =
+            [caustic, rebound, Traced::new(world, settings, kind, cancel, stats)].map(|t| t.build(asked));
         Self {
-            caustic_estimate: estimate(asked, &caustic, asked.nearest.caustic),
-            rebound_estimate: estimate(asked, &rebound, asked.nearest.caustic),
-            global_estimate: estimate(asked, &global, asked.nearest.global),
-            caustic,
-            rebound,
-            global,
+            caustic_estimate: estimate(asked, &caustic.0, asked.nearest.caustic),
+            rebound_estimate: estimate(asked, &rebound.0, asked.nearest.caustic),
+            global_estimate: estimate(asked, &global.0, asked.nearest.global),
+            statistics: PhotonStatistics { caustic: caustic.1, rebound: rebound.1, global: global.1 },
+            caustic: caustic.0,
+            rebound: rebound.0,
+            global: global.0,
             holds_all,
-            statistics: PhotonStatistics {
-                caustic: caustic_statistics,
-                rebound: rebound_statistics,
-                global: global_statistics,
-            },
         }
     }
 }
 
-/// What the making of all maps shares.
-struct Stage<'a> {
-    world: &'a World,
-    settings: &'a RenderSettings,
-    cancel: &'a AtomicBool,
+/// Photons for a map.
+struct Traced {
+    photons: Vec<Photon>,
+    emitted: u32,
+    time: Duration,
 }
 
-impl Stage<'_> {
-    fn make(
-        &self,
-        kind: MapKind,
-        count: u32,
-        projection: ProjectionMaps,
+impl Traced {
+    fn new(
+        world: &World,
+        settings: &RenderSettings,
+        map: MapKind,
+        cancel: &AtomicBool,
         stats: &mut Stats,
-    ) -> (PhotonMap, MapStatistics) {
-        let asked = &self.settings.photon_map;
-        let begun = Instant::now();
-        let emitter = PhotonEmitter::new(self.world, projection, asked.projection_cells);
+    ) -> Self {
+        let (asked, begun) = (&settings.photon_map, Instant::now());
+        let (count, projection) = match map {
+            MapKind::Caustic => (asked.caustic_photons, asked.projection),
+            MapKind::Global | MapKind::Indirect => (asked.global_photons, ProjectionMaps::None),
+        };
+        let emitter = PhotonEmitter::new(world, projection, asked.projection_cells);
         // Where no light reaches anything specular there are no caustics.
         let emitted = if emitter.fraction() > 0.0 { count } else { 0 };
-        let max_bounces = self.max_bounces();
-        let tracer = PhotonTracer {
-            world: self.world,
-            emitter: &emitter,
-            map: kind,
-            seed: self.settings.seed,
-            max_bounces,
-        };
-        let photons = tracer.trace(emitted, self.cancel, stats);
-        let traced = Instant::now();
-        let map = PhotonMap::from_photons(&photons, asked.leaf_size);
+        let (seed, max_bounces) = (settings.seed, max_bounces(settings, map));
+        let tracer = PhotonTracer { world, emitter: &emitter, map, seed, max_bounces };
+        Self { photons: tracer.trace(emitted, cancel, stats), emitted, time: begun.elapsed() }
+    }
+
+    /// Those for which `is_first` holds, and the others. The time goes to the first.
+    fn split(self, is_first: impl Fn(&Photon) -> bool) -> (Self, Self) {
+        let (first, others) = self.photons.into_iter().partition(is_first);
+        (
+            Self { photons: first, ..self },
+            Self { photons: others, emitted: self.emitted, time: Duration::ZERO },
+        )
+    }
+
+    fn build(self, asked: &PhotonMapSettings) -> (PhotonMap, MapStatistics) {
+        let begun = Instant::now();
+        let map = PhotonMap::from_photons(&self.photons, asked.leaf_size);
         let statistics = MapStatistics {
-            emitted: u64::from(emitted),
-            stored: photons.len() as u64,
+            emitted: u64::from(self.emitted),
+            stored: self.photons.len() as u64,
             bytes: map.bytes() as u64,
-            tracing: traced - begun,
-            building: traced.elapsed(),
+            tracing: self.time,
+            building: begun.elapsed(),
         };
         (map, statistics)
     }
+}
 
-    /// Bounces of photons: with those of the eye they make no longer paths than asked for, but where rays gather
-    /// more than once.
-    fn max_bounces(&self) -> u32 {
-        let asked = &self.settings.photon_map;
-        let by_eye = if asked.final_gather { 2 } else { 1 };
-        let by_depth = self.settings.max_depth.map_or(u32::MAX, |limit| limit.saturating_sub(by_eye));
-        asked.max_bounces.min(by_depth)
-    }
+/// Bounces of photons: with those of the eye they make no longer paths than asked for, but where rays gather more than
+/// once.
+fn max_bounces(settings: &RenderSettings, map: MapKind) -> u32 {
+    let by_eye = match map {
+        MapKind::Global | MapKind::Indirect if settings.photon_map.final_gather => 2,
+        MapKind::Caustic | MapKind::Global | MapKind::Indirect => 1,
+    };
+    let by_depth = settings.max_depth.map_or(u32::MAX, |limit| limit.saturating_sub(by_eye));
+    settings.photon_map.max_bounces.min(by_depth)
 }
 
 /// How a map is looked up.

@@ -164,14 +164,10 @@ fn pack_flux(flux: Spectrum, dither: [f32; 4]) -> ([u8; 4], u32) {
         return ([0; 4], 0);
     }
     let exponent = scale_exponent(largest);
-    // In two steps, as the inverse of the least scale is beyond `f32`.
+    // In `f64`, as the inverse of the least scale is beyond `f32`.
     let inverse = f64::from_bits(((1023 - exponent) as u64) << 52);
-    let mut lane = 0;
-    let mantissas = flux.to_lanes().map(|value| {
-        let u = dither[lane];
-        lane += 1;
-        (f64::from(value.max(0.0)) * inverse + f64::from(u)) as u8
-    });
+    let units = |lane: usize| f64::from(flux[lane].max(0.0)) * inverse;
+    let mantissas = std::array::from_fn(|lane| (units(lane) + f64::from(dither[lane])) as u8);
     (mantissas, (exponent + EXPONENT_BIAS) as u32)
 }
 

@@ -1,9 +1,9 @@
-//! Photons from the lights into a map.
+//! Photons from the lights to where they are kept.
 //!
 //! 1. Emit photon i with its own random numbers: toward anything for the global map, toward specular surfaces for
-//!    the caustic map.
+//!    caustics.
 //! 2. Walk to the next surface; the medium on the way takes its share of the flux.
-//! 3. At a surface that is not specular, keep the photon if the map wants its kind.
+//! 3. At a surface that is not specular, keep the photon if its kind is wanted.
 //! 4. Draw a direction from the BSDF and go on. Singular bounces are free.
 //! 5. Roulette on what is left of the flux decides whether the photon goes on, so that all kept carry about the
 //!    same.
@@ -29,13 +29,12 @@ use std::sync::atomic::{AtomicBool, Ordering};
 /// Photons that one thread traces at a time.
 const CHUNK: u32 = 4096;
 
-/// Which photons a map keeps.
+/// Which photons are kept.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum MapKind {
-    /// L S+ D: light that came over specular surfaces alone.
+    /// L S+ D: light that came over specular surfaces alone. And L S+ D S* D, as `PhotonKind::Indirect`: what it
+    /// throws on other surfaces.
     Caustic,
-    /// L S+ D S* D: caustics as other surfaces are lit by them.
-    Rebound,
     /// All light.
     Global,
     /// Light that was scattered by a surface that is not specular; the rest is counted in other ways.
@@ -43,20 +42,19 @@ pub enum MapKind {
 }
 
 impl MapKind {
-    /// Whether the map keeps photons of this kind.
+    /// Whether photons of this kind are kept.
     fn keeps(self, kind: PhotonKind) -> bool {
         match self {
-            Self::Caustic => kind == PhotonKind::Caustic,
+            Self::Caustic => kind != PhotonKind::Direct,
             Self::Global => true,
-            Self::Rebound | Self::Indirect => kind == PhotonKind::Indirect,
+            Self::Indirect => kind == PhotonKind::Indirect,
         }
     }
 
     /// Whether photons of this kind go on when a surface that is not specular has scattered them.
     fn follows(self, kind: PhotonKind) -> bool {
         match self {
-            Self::Caustic => false,
-            Self::Rebound => kind == PhotonKind::Caustic,
+            Self::Caustic => kind == PhotonKind::Caustic,
             Self::Global | Self::Indirect => true,
         }
     }
@@ -65,7 +63,6 @@ impl MapKind {
     fn tag(self) -> u32 {
         match self {
             Self::Caustic => u32::MAX,
-            Self::Rebound => u32::MAX - 2,
             Self::Global | Self::Indirect => u32::MAX - 1,
         }
     }

@@ -16,12 +16,18 @@ pub(crate) fn prefetch<T>(value: &T) {
     let _ = value;
 }
 
-/// Collects values into memory for which the system is asked to use large pages: a ray touches a tree all over, and
-/// with small pages half of its time goes into finding out where they are.
+/// Collects values in large pages; see [`with_capacity_in_large_pages`].
 pub(crate) fn collect_in_large_pages<T>(values: impl ExactSizeIterator<Item = T>) -> Vec<T> {
-    let mut list = Vec::with_capacity(values.len());
-    advise_large_pages(list.spare_capacity_mut());
+    let mut list = with_capacity_in_large_pages(values.len());
     list.extend(values);
+    list
+}
+
+/// An empty list in memory for which the system is asked to use large pages: a query touches a tree all over, and with
+/// small pages half of its time goes into finding out where they are.
+pub fn with_capacity_in_large_pages<T>(capacity: usize) -> Vec<T> {
+    let mut list = Vec::with_capacity(capacity);
+    advise_large_pages(list.spare_capacity_mut());
     list
 }
 

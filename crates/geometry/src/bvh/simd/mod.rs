@@ -9,6 +9,7 @@ mod memory;
 #[cfg(target_arch = "x86_64")]
 mod x86;
 
+pub use memory::with_capacity_in_large_pages;
 pub(crate) use memory::{Stack, collect_in_large_pages, prefetch};
 
 use super::node::{Block, Node};

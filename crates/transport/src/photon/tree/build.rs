@@ -6,7 +6,7 @@
 use super::PointTree;
 use super::layout::{FAN, Node, PACKET, Packet};
 use super::simd::VerifiedLevel;
-use hyaline_geometry::bvh::SimdLevel;
+use hyaline_geometry::bvh::{SimdLevel, with_capacity_in_large_pages};
 use hyaline_math::{Bounds, Vec3};
 use rayon::prelude::*;
 
@@ -19,15 +19,22 @@ pub(super) fn build<T: Copy + Send + Sync>(mut points: Vec<(Vec3, T)>, leaf_size
     assert!(u32::try_from(points.len()).is_ok(), "a tree holds at most 2^32 - 1 points");
     let leaf_size = leaf_size.clamp(PACKET as u32, 1024).next_power_of_two() as usize;
     order(&mut points, leaf_size);
-    let packets: Vec<Packet> =
-        points.par_chunks(PACKET).map(|chunk| Packet::new(chunk.iter().map(|(p, _)| *p))).collect();
-    let payloads = points.into_par_iter().map(|(_, payload)| payload).collect();
+    let packets =
+        in_large_pages(points.par_chunks(PACKET).map(|chunk| Packet::new(chunk.iter().map(|(p, _)| *p))));
+    let payloads = in_large_pages(points.into_par_iter().map(|(_, payload)| payload));
     let leaf_packets = leaf_size / PACKET;
     let levels = build_levels(&packets, leaf_packets);
     let bounds = levels.last().map_or(Bounds::EMPTY, |top| top[0].bounds());
     let (nodes, first_leaf) = join_levels(levels);
     let level = VerifiedLevel::new(SimdLevel::detect());
     PointTree { packets, payloads, nodes, first_leaf, leaf_packets: leaf_packets as u32, bounds, level }
+}
+
+/// Collects in memory that queries find their way in quickly.
+fn in_large_pages<T: Send>(values: impl IndexedParallelIterator<Item = T>) -> Vec<T> {
+    let mut list = with_capacity_in_large_pages(values.len());
+    values.collect_into_vec(&mut list);
+    list
 }
 
 /// Orders points so that leaves, and all nodes above them, are ranges.
@@ -91,7 +98,9 @@ fn build_levels(packets: &[Packet], leaf_packets: usize) -> Vec<Vec<Node>> {
 
 /// One array of all levels, the root first, and the index at which leaves would begin.
 fn join_levels(levels: Vec<Vec<Node>>) -> (Vec<Node>, u32) {
-    let mut nodes: Vec<Node> = Vec::new();
+    let above_lowest = (1..levels.len()).fold(0, |first, _| first * FAN + 1);
+    let lowest = levels.first().map_or(0, Vec::len);
+    let mut nodes: Vec<Node> = with_capacity_in_large_pages(above_lowest + lowest);
     // Level d begins after all that could be above it: at (8^d - 1) / 7.
     let mut first = 0;
     for level in levels.into_iter().rev() {

@@ -225,6 +225,6 @@ impl End {
 
 /// A packet's worth of a list.
 #[inline(always)]
-fn packet_mut<N>(list: &mut [N], start: usize) -> &mut [N; PACKET] {
+pub(super) fn packet_mut<N>(list: &mut [N], start: usize) -> &mut [N; PACKET] {
     (&mut list[start..start + PACKET]).try_into().expect("the range is of this length")
 }

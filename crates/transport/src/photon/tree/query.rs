@@ -2,15 +2,12 @@
 
 use super::PointTree;
 use super::layout::{FAN, PACKET, Packet};
-use super::nearest::Nearest;
+use super::nearest::{Nearest, packet_mut};
 use super::region::{Probe, Region};
 use super::simd::{Distances, Lanes, Query, prefetch};
 
 /// Most nodes that wait: trees have at most 10 levels, and of each all children but the one being looked at can wait.
 const STACK_SIZE: usize = 10 * FAN;
-
-/// The mask of a packet that is inside as a whole.
-const ALL_LANES: u32 = (1 << PACKET) - 1;
 
 /// Whether a point counts.
 pub trait Accept {
@@ -44,8 +41,15 @@ impl Accept for All {
 impl<T: Copy + Send + Sync> PointTree<T> {
     /// Visits all points of a region, with their indices and squared distances.
     pub fn within(&self, region: &Region, visit: &mut impl FnMut(u32, f32)) {
-        if let Some(probe) = Probe::new(region).filter(|_| !self.is_empty()) {
-            self.level.run(Within { tree: self, probe, visit });
+        self.fold_within(region, (), |(), i, distance2| visit(i, distance2));
+    }
+
+    /// Folds all points of a region into a state, by their indices and squared distances: [`Self::within`] where speed
+    /// matters, as the state stays in registers.
+    pub fn fold_within<S>(&self, region: &Region, initial: S, fold: impl FnMut(S, u32, f32) -> S) -> S {
+        match Probe::new(region).filter(|_| !self.is_empty()) {
+            Some(probe) => self.level.run(FoldWithin { tree: self, probe, initial, fold }),
+            None => initial,
         }
     }
 
@@ -80,20 +84,22 @@ fn set_bits(mut mask: u32) -> impl Iterator<Item = u32> {
     })
 }
 
-/// See [`PointTree::within`].
-struct Within<'a, T, V> {
+/// See [`PointTree::fold_within`].
+struct FoldWithin<'a, T, S, F> {
     tree: &'a PointTree<T>,
     probe: Probe,
-    visit: &'a mut V,
+    initial: S,
+    fold: F,
 }
 
-impl<T: Copy + Send + Sync, V: FnMut(u32, f32)> Query for Within<'_, T, V> {
-    type Output = ();
+impl<T: Copy + Send + Sync, S, F: FnMut(S, u32, f32) -> S> Query for FoldWithin<'_, T, S, F> {
+    type Output = S;
 
     #[inline(always)]
-    fn run<L: Lanes>(self, lanes: L) {
-        let Self { tree, probe, visit } = self;
+    fn run<L: Lanes>(self, lanes: L) -> S {
+        let Self { tree, probe, initial: mut state, mut fold } = self;
         let limit = probe.limit;
+        let mut hits = Hits::new();
         let mut stack = [0; STACK_SIZE];
         let mut waiting = 1;
         while waiting > 0 {
@@ -114,20 +120,57 @@ impl<T: Copy + Send + Sync, V: FnMut(u32, f32)> Query for Within<'_, T, V> {
             for slot in set_bits(mask) {
                 let (packets, first) = tree.leaf(first_child + slot);
                 for (packet, first) in packets.iter().zip((first..).step_by(PACKET)) {
-                    let (Distances(distances), mask) = lanes.point_distances(&probe, packet, limit);
-                    if mask == ALL_LANES {
-                        // Deep inside a region this is the rule, and needs no search for bits.
-                        for (i, distance) in (first..).zip(distances) {
-                            visit(i, distance);
-                        }
-                        continue;
-                    }
-                    for lane in set_bits(mask) {
-                        visit(first + lane, distances[lane as usize]);
+                    let (distances, mask) = lanes.point_distances(&probe, packet, limit);
+                    hits.push(lanes, &distances, mask, first);
+                    if hits.is_full() {
+                        state = hits.drain(state, &mut fold);
                     }
                 }
             }
         }
+        hits.drain(state, &mut fold)
+    }
+}
+
+/// Points that wait to be folded: going through many at once costs less than through those of each packet, as a
+/// processor guesses the end of a loop wrong each time.
+struct Hits {
+    distances: [f32; HITS],
+    indices: [u32; HITS],
+    len: usize,
+}
+
+/// Points that can wait.
+const HITS: usize = 8 * PACKET;
+
+impl Hits {
+    fn new() -> Self {
+        Self { distances: [0.0; HITS], indices: [0; HITS], len: 0 }
+    }
+
+    /// Adds the points of a packet that are in `mask`; there must be room for all of it.
+    #[inline(always)]
+    fn push<L: Lanes>(&mut self, lanes: L, distances: &Distances, mask: u32, first: u32) {
+        let indices: [u32; PACKET] = std::array::from_fn(|lane| first + lane as u32);
+        lanes.compress(&distances.0, mask, packet_mut(&mut self.distances, self.len));
+        lanes.compress(&indices, mask, packet_mut(&mut self.indices, self.len));
+        self.len += mask.count_ones() as usize;
+    }
+
+    /// Whether there is no room for another packet.
+    #[inline(always)]
+    fn is_full(&self) -> bool {
+        self.len > HITS - PACKET
+    }
+
+    /// Folds all into a state.
+    #[inline(always)]
+    fn drain<S>(&mut self, mut state: S, fold: &mut impl FnMut(S, u32, f32) -> S) -> S {
+        for (&distance2, &i) in self.distances[..self.len].iter().zip(&self.indices[..self.len]) {
+            state = fold(state, i, distance2);
+        }
+        self.len = 0;
+        state
     }
 }
 

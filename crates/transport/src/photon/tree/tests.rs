@@ -117,6 +117,28 @@ fn nearest_points_are_those_of_brute_force() {
 }
 
 #[test]
+fn all_levels_find_the_same_points_in_the_same_order() {
+    let mut random = Random::from_seed(6);
+    let (_, points) = sets(5000, &mut random).swap_remove(1);
+    let tree = PointTree::build(points.iter().copied().zip(0..).collect(), 32);
+    for center in points.iter().step_by(50) {
+        for region in regions(*center, &mut random) {
+            let ask = |level| {
+                let (tree, mut found) = (tree.clone().with_simd_level(level), Nearest::new());
+                tree.nearest(&region, 40, All, &mut found);
+                let push = |mut list: Vec<(f32, u32)>, i, distance2| {
+                    list.push((distance2, i));
+                    list
+                };
+                (found.iter().collect::<Vec<_>>(), tree.fold_within(&region, Vec::new(), push))
+            };
+            let expected = ask(SimdLevel::Scalar);
+            assert!(SimdLevel::ALL.into_iter().all(|level| ask(level) == expected));
+        }
+    }
+}
+
+#[test]
 fn points_that_do_not_count_make_room_for_others() {
     let found = std::cell::RefCell::new(Nearest::new());
     for_all(|name, points, tree, region| {
