@@ -142,7 +142,7 @@ mod tests {
         assert_eq!(plan.settings.seed, 7);
         assert_eq!(plan.crop, Rect { x0: 1, y0: 2, x1: 3, y1: 4 });
         assert_eq!(plan.exposure, 2.0);
-        assert_eq!(plan.integrator.name(), "path");
+        assert_eq!(plan.integrator.name(), "merging");
     }
 
     #[test]

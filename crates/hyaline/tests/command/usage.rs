@@ -137,7 +137,7 @@ fn the_report_has_the_agreed_keys_on_the_last_line() {
         assert!(report["seconds"][key].as_f64().is_some_and(|seconds| seconds >= 0.0), "{key}");
     }
     assert!(report["rays"].as_u64().is_some_and(|rays| rays >= 2 * 24 * 18));
-    assert_eq!(report["photons"], 0);
+    assert!(report["photons"].as_u64().is_some_and(|photons| photons > 0));
     assert!(report["warnings"].is_array());
     #[cfg(target_os = "linux")]
     assert!(report["peak_memory_bytes"].as_u64().is_some_and(|bytes| bytes > 1 << 20));
