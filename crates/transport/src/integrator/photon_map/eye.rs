@@ -2,16 +2,17 @@
 //!
 //! 1. Specular surfaces are traced: the path goes on in one direction drawn from the BSDF. Lights met count fully;
 //!    at narrow lobes they are weighted against light sampling.
-//! 2. At the first other surface light comes in three ways, each counted once. Straight from the lights: shadow
-//!    rays, weighted against gather rays that meet a light. Over specular surfaces alone: the caustic map. All
-//!    other: gather rays, drawn from the BSDF.
+//! 2. At the first other surface light comes in four ways, each counted once. Straight from the lights: shadow
+//!    rays, weighted against gather rays that meet a light. Over specular surfaces alone: the caustic map. What
+//!    caustics throw from elsewhere (L S+ D S* D): a map of its own, as few gather rays would meet a caustic, and
+//!    each would bring a lot. All other: gather rays, drawn from the BSDF.
 //! 3. A gather ray is traced over specular surfaces to the next other one; lights met behind specular surfaces are
-//!    caustics and don't count again. There the global map is looked up, which holds all light; or only indirect
-//!    light, and shadow rays and the caustic map add the rest.
+//!    caustics and don't count again. There the global map is looked up, but for its caustics; or only indirect
+//!    light, and light sampling adds what comes straight.
 //! 4. Where a gather ray is shorter than the radius of that look-up, it would see the light of the place that
 //!    gathers: the surface there gathers in its turn.
-//! 5. Without final gathering the light at step 2 is looked up as at step 3. Glossy surfaces gather nevertheless:
-//!    too few photons fall into their lobes.
+//! 5. Without final gathering the light at step 2 is looked up as at step 3, caustics included. Glossy surfaces
+//!    gather nevertheless: too few photons fall into their lobes.
 //!
 //! Source: Jensen, Realistic Image Synthesis Using Photon Mapping, 2001, §9.2.
 

@@ -1,7 +1,7 @@
 //! Jensen's photon mapping: photons are traced into maps once, then every camera path looks light up there.
 //!
 //! 1. Photon stage, in `prepare`: a caustic map of light that comes over specular surfaces alone, from photons
-//!    emitted toward those; a global map of all light.
+//!    emitted toward those, and of what it throws on other surfaces; a global map of all light.
 //! 2. Eye stage, in every pass: see `eye`.
 //!
 //! The maps are the same in all passes, so their noise stays however many passes are made; it shows as blur and
