@@ -202,16 +202,21 @@ fn compare(rivals: &Rivals, kind: &Kind, places: &[Vec3]) -> [f64; 2] {
         for (places, best) in places.chunks(BATCH_SIZE).zip(&mut times) {
             let (ours, our_time) = timed(|| rivals.ours(kind, places, &mut found));
             let (theirs, their_time) = timed(|| rivals.theirs(kind, places));
-            check_equal(ours, theirs);
+            check_equal(kind, ours, theirs);
             *best = [best[0].min(our_time), best[1].min(their_time)];
         }
     }
     [0, 1].map(|who| places.len() as f64 / times.iter().map(|best| best[who]).sum::<f64>() * 1e-3)
 }
 
-fn check_equal(ours: Answer, theirs: Answer) {
-    assert_eq!((ours.count, ours.items), (theirs.count, theirs.items));
-    assert!((ours.distance2 - theirs.distance2).abs() <= 1e-6 * ours.distance2);
+/// Both found the same. Of photons that are equally far as the k-th it is open which one is taken, so that the nearest are
+/// compared by their distances.
+fn check_equal(kind: &Kind, ours: Answer, theirs: Answer) {
+    assert_eq!(ours.count, theirs.count);
+    assert!((ours.distance2 - theirs.distance2).abs() <= 1e-9 * ours.distance2);
+    if let Kind::Within(_) = kind {
+        assert_eq!(ours.items, theirs.items);
+    }
 }
 
 fn timed(work: impl FnOnce() -> Answer) -> (Answer, f64) {
