@@ -52,11 +52,10 @@ impl Eye<'_> {
         let medium = &self.world.media[place.medium.index()];
         let density = medium.grid.as_ref().map_or(1.0, |grid| grid.density(place.p));
         let own = self.volume_ratio(place, radius, photons.landed.sent);
-        let mut sum = Spectrum::ZERO;
-        photons.landed.volume(place.p, radius, |photon| {
+        let sum = photons.landed.volume(place.p, radius, |photon| {
             let phase = medium.phase.value(wo, -photon.direction);
             let ratio = own / phase;
-            sum += photon.flux * (phase * weight::power(photon.others / (ratio * ratio)));
+            photon.flux * (phase * weight::power(photon.others / (ratio * ratio)))
         });
         // Photons count what they scatter; what the path scatters is in its throughput already.
         let sigma_s = (medium.sigma_s * density).map(|sigma| if sigma > 0.0 { 1.0 / sigma } else { 0.0 });

@@ -57,20 +57,19 @@ impl Eye<'_> {
         let hit = &vertex.hit;
         let own = weight::at_receiver(photons.landed.sent, radius, 1.0, 1.0, 1.0);
         let ior = self.world.ior(path.set.active());
-        let mut sum = Spectrum::ZERO;
-        photons.landed.surface(hit.p, radius, |photon| {
+        let sum = photons.landed.surface(hit.p, radius, |photon| {
             let wi = -photon.direction;
             let cos = wi.dot(hit.ng).abs();
             let f = vertex.bsdf.eval(wo, wi, Transport::Radiance);
             if f.is_zero() || cos == 0.0 {
-                return;
+                return Spectrum::ZERO;
             }
             let ior = match crosses(vertex, wo, wi) {
                 true => self.world.ior(vertex.far_set(self.world, &path.set).active()),
                 false => ior,
             };
             let ratio = own * ior * ior * cos / vertex.bsdf.pdf(wo, wi);
-            sum += f * photon.flux * (weight::power(photon.others / (ratio * ratio)) / cos);
+            f * photon.flux * (weight::power(photon.others / (ratio * ratio)) / cos)
         });
         sum * (1.0 / (PI * radius * radius))
     }

@@ -49,20 +49,35 @@ pub(in crate::integrator) struct Landed {
 }
 
 impl Landed {
-    /// Shows every photon on a surface within a radius.
-    pub(in crate::integrator) fn surface(&self, p: Vec3, radius: f32, f: impl FnMut(&CausticPhoton)) {
-        visit(&self.surface, p, radius, f);
+    /// Sum of the light of every photon on a surface within a radius.
+    pub(in crate::integrator) fn surface(
+        &self,
+        p: Vec3,
+        radius: f32,
+        light: impl FnMut(&CausticPhoton) -> Spectrum,
+    ) -> Spectrum {
+        sum(&self.surface, p, radius, light)
     }
 
-    /// Shows every photon in a medium within a radius.
-    pub(in crate::integrator) fn volume(&self, p: Vec3, radius: f32, f: impl FnMut(&CausticPhoton)) {
-        visit(&self.volume, p, radius, f);
+    /// Sum of the light of every photon in a medium within a radius.
+    pub(in crate::integrator) fn volume(
+        &self,
+        p: Vec3,
+        radius: f32,
+        light: impl FnMut(&CausticPhoton) -> Spectrum,
+    ) -> Spectrum {
+        sum(&self.volume, p, radius, light)
     }
 }
 
-fn visit(tree: &PointTree<CausticPhoton>, center: Vec3, radius: f32, mut f: impl FnMut(&CausticPhoton)) {
+fn sum(
+    tree: &PointTree<CausticPhoton>,
+    center: Vec3,
+    radius: f32,
+    mut light: impl FnMut(&CausticPhoton) -> Spectrum,
+) -> Spectrum {
     let region = Region { center, radius, disc: None };
-    tree.within(&region, &mut |index, _| f(tree.payload(index)));
+    tree.fold_within(&region, Spectrum::ZERO, |sum, index, _| sum + light(tree.payload(index)))
 }
 
 /// Photons that a pass sends out: none where no light can reach anything polished.
