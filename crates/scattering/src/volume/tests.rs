@@ -2,6 +2,7 @@
 
 use super::*;
 use crate::{Medium, Phase};
+use hyaline_math::float::f64 as float;
 use hyaline_math::{DVec3, Ray, Transform, Vec2, Vec3};
 use hyaline_spectrum::Spectrum;
 use hyaline_testkit::{Moments, Random, integrate};
@@ -66,8 +67,9 @@ fn homogeneous_flights_arrive_as_often_as_the_law_says_in_every_lane() {
         let (sigma_t, sigma_s) = (medium.sigma_t().to_lanes(), medium.sigma_s.to_lanes());
         for lane in 0..3 {
             let sigma = f64::from(sigma_t[lane]);
-            assert_mean(&arrived[lane], (-sigma * 0.8).exp(), "arrivals");
-            let expected = integrate(|t| f64::from(sigma_s[lane]) * (-sigma * t).exp() * t, 0.0, 0.8, 200);
+            assert_mean(&arrived[lane], float::exp(-sigma * 0.8), "arrivals");
+            let expected =
+                integrate(|t| f64::from(sigma_s[lane]) * float::exp(-sigma * t) * t, 0.0, 0.8, 200);
             assert_mean(&scattered[lane], expected, "scatterings");
         }
     }
@@ -110,7 +112,7 @@ fn ratio_tracking_agrees_with_quadrature() {
         }
     }
     for lane in 0..3 {
-        assert_mean(&moments[lane], (-f64::from(COLORED[lane]) * depth).exp(), "transmittance");
+        assert_mean(&moments[lane], float::exp(-f64::from(COLORED[lane]) * depth), "transmittance");
     }
     assert_eq!(transmittance(&medium, &Ray::new(Vec3::splat(9.0), Vec3::X), f32::INFINITY), Spectrum::ONE);
 }
@@ -134,22 +136,22 @@ fn flights_through_a_grid_scatter_where_quadrature_says() {
         for i in 0..steps {
             let t = (f64::from(i) + 0.5) * dt;
             let density = f64::from(grid.density(ray.at(t as f32)));
-            let left = (-f64::from(sigma_t[lane]) * (depth + 0.5 * density * dt)).exp();
+            let left = float::exp(-f64::from(sigma_t[lane]) * (depth + 0.5 * density * dt));
             expected[lane][0] += left * f64::from(sigma_s[lane]) * density * dt * t;
             expected[lane][1] += left * f64::from(medium.emission.to_lanes()[lane]) * density * dt;
             depth += density * dt;
         }
-        expected[lane][2] = (-f64::from(sigma_t[lane]) * depth).exp();
+        expected[lane][2] = float::exp(-f64::from(sigma_t[lane]) * depth);
     }
     let mut random = Random::from_seed(4);
     let mut moments: [[Moments; 3]; 3] = std::array::from_fn(|_| std::array::from_fn(|_| Moments::new()));
     for _ in 0..60_000 {
         let flight = flyers(&mut random, Spectrum::from_lanes([1.0, 0.5, 0.8, 0.0])).fly(&medium, &ray, 5.0);
-        for lane in 0..3 {
+        for (lane, moments) in moments.iter_mut().enumerate() {
             let weight = f64::from(flight.weight.to_lanes()[lane]);
-            moments[lane][0].push(flight.scatters_at.map_or(0.0, |t| weight * f64::from(t)));
-            moments[lane][1].push(f64::from(flight.emitted.to_lanes()[lane]));
-            moments[lane][2].push(if flight.scatters_at.is_none() { weight } else { 0.0 });
+            moments[0].push(flight.scatters_at.map_or(0.0, |t| weight * f64::from(t)));
+            moments[1].push(f64::from(flight.emitted.to_lanes()[lane]));
+            moments[2].push(if flight.scatters_at.is_none() { weight } else { 0.0 });
         }
     }
     for lane in 0..3 {

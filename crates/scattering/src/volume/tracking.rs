@@ -51,13 +51,13 @@ fn ratio_tracking(sigma_t: Spectrum, grid: &Grid, ray: &Ray, distance: f32, rng:
                 break;
             }
             let density = grid.density_in_cube(line.origin + line.direction * t);
-            left = left * (Spectrum::ONE + sigma_t * (-density / rate));
+            left *= Spectrum::ONE + sigma_t * (-density / rate);
             let most = left.to_lanes().into_iter().fold(0.0, f32::max);
             if most < FAINT {
                 if rng.uniform() * FAINT >= most {
                     return Spectrum::ZERO;
                 }
-                left = left * (FAINT / most);
+                left *= FAINT / most;
             }
         }
     }

@@ -264,7 +264,9 @@ impl Photon<'_> {
         self.flux *= scattered.weight;
         let left = self.flux.max_lane(world.lanes) / full;
         let survival = if self.chain > PATIENCE { left.min(0.9) } else { left.min(1.0) };
-        if !(survival > 0.0) || sampler.next_1d() >= survival {
+        // Compared this way round, what is not a number ends the photon.
+        let goes_on = sampler.next_1d() < survival;
+        if !goes_on {
             return false;
         }
         self.flux *= 1.0 / survival;
