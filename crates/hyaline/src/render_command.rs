@@ -75,6 +75,9 @@ fn make_ready(
         message::print(&format!("note: {line}"));
     }
     warnings.tell_notes(&scene.notes);
+    if let Some(warning) = used_settings::unseen_light(plan.integrator.name(), &scene.media) {
+        warnings.tell(warning);
+    }
     if let Some(file) = scene.settings.file_integrator.as_ref().filter(|_| !arguments.as_file) {
         message::print(&format!("note: the file asks for {}", inventory::file_integrator(file)));
     }

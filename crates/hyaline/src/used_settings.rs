@@ -1,6 +1,6 @@
 //! Which settings an integrator uses: all that its films depend on, and what to tell of the others.
 
-use hyaline_scene::{PhotonMapSettings, ProjectionMaps, Settings};
+use hyaline_scene::{Located, MediumDescription, PhotonMapSettings, ProjectionMaps, Settings};
 use hyaline_transport::RenderSettings;
 use hyaline_transport::integrator::debug::shows_photons;
 
@@ -18,6 +18,20 @@ pub(crate) fn in_words(integrator: &str, settings: &RenderSettings) -> String {
         words.push_str(&format!(", photon_map {:?}", settings.photon_map));
     }
     words
+}
+
+/// What an integrator leaves out of the light in media, where the scene has such light.
+pub(crate) fn unseen_light(integrator: &str, media: &[Located<MediumDescription>]) -> Option<String> {
+    if ![WHITTED, PHOTON_MAP].contains(&integrator) {
+        return None;
+    }
+    let shines = |medium: &MediumDescription| medium.scattering.is_some() || medium.emission != [0.0; 3];
+    let names: Vec<String> =
+        media.iter().filter(|medium| shines(medium)).map(|medium| format!("'{}'", medium.name)).collect();
+    let list = names.join(", ");
+    (!names.is_empty()).then(|| {
+        format!("'{integrator}' shows no light that media scatter or send out, only what they dim: {list}; 'merging' and 'path' do")
+    })
 }
 
 /// Settings that were changed and do nothing with the integrator chosen, one line each.
@@ -136,5 +150,22 @@ mod tests {
         let keys = ["projection_cells", "gather_rays", "exclude_direct"];
         let keys = keys.map(|key| format!("settings.photon_map.{key}"));
         assert_eq!(idle_keys("photon-map", &settings), keys);
+    }
+
+    #[test]
+    fn integrators_that_miss_light_of_media_name_the_media() {
+        use hyaline_scene::{IndexDescription, PhaseDescription, Scattering};
+        let clear = |name: &str| MediumDescription::clear(name, IndexDescription::Constant(1.0));
+        let scattering = Scattering { sigma_s: [1.0; 3], phase: PhaseDescription::Isotropic };
+        let fog = MediumDescription { scattering: Some(scattering), ..clear("fog") };
+        let plasma = MediumDescription { emission: [1.0; 3], ..clear("plasma") };
+        let media: Vec<Located<_>> = vec![fog.into(), clear("water").into(), plasma.into()];
+        for integrator in ["whitted", "photon-map"] {
+            let warning = unseen_light(integrator, &media).unwrap();
+            assert!(warning.contains("'fog', 'plasma'") && !warning.contains("water"), "{warning}");
+            assert_eq!(unseen_light(integrator, &media[1..2]), None);
+        }
+        assert_eq!(unseen_light("merging", &media), None);
+        assert_eq!(unseen_light("path", &media), None);
     }
 }

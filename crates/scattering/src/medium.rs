@@ -2,6 +2,7 @@
 
 use crate::phase::Phase;
 use crate::volume::Grid;
+use hyaline_math::Vec3;
 use hyaline_spectrum::Spectrum;
 use std::sync::Arc;
 
@@ -59,6 +60,11 @@ impl Medium {
     /// Whether light passes unchanged.
     pub fn is_clear(&self) -> bool {
         self.sigma_a.is_zero() && self.sigma_s.is_zero()
+    }
+
+    /// Density at a point of the world, ≥ 0.
+    pub fn density(&self, p: Vec3) -> f32 {
+        self.grid.as_ref().map_or(1.0, |grid| grid.density(p))
     }
 
     /// Whether it sends out light.

@@ -11,7 +11,6 @@ use crate::walk::LONGEST_WALK;
 use hyaline_geometry::SurfaceHit;
 use hyaline_math::{Ray, Vec3, offset_origin};
 use hyaline_scattering::{MediumSet, volume};
-use hyaline_spectrum::Spectrum;
 use hyaline_world::light::DirectSample;
 use hyaline_world::{StraightWay, World, mask};
 
@@ -38,11 +37,8 @@ pub fn ray_from(origin: Vec3, sample: &DirectSample, time: f32) -> Ray {
 ///
 /// Boundaries that reflect or bend stop it, where they don't have straight shadows: light through them does not come
 /// straight.
-pub fn transmittance(world: &World, ray: &Ray, set: &MediumSet, stats: &mut Stats) -> Spectrum {
-    straight_way(world, ray, set, stats).transmittance()
-}
-
-/// The same, told apart by who else finds that light.
+///
+/// It is told apart by who else finds that light.
 pub fn straight_way(world: &World, ray: &Ray, set: &MediumSet, stats: &mut Stats) -> StraightWay {
     stats.rays += 1;
     if world.geometry.occluded(ray, mask::BLOCKS) {

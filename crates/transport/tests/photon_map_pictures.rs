@@ -6,17 +6,14 @@ mod scene_kit;
 
 use hyaline_math::DVec3;
 use hyaline_scene::*;
-use hyaline_testkit::{Moments, welch_t};
+use hyaline_testkit::Moments;
 use hyaline_transport::RenderSettings;
 use hyaline_world::World;
-use pictures::{Shot, luminance};
+use pictures::{Shot, assert_same, luminance};
 use scene_kit::*;
 
 /// Pictures made, each with maps of its own.
 const SEEDS: u64 = 12;
-
-/// Chance of calling pictures different that are not.
-const LEVEL: f64 = 1e-3;
 
 /// Mean of a picture over `passes` passes, for `SEEDS` seeds.
 fn means(world: &World, integrator: &str, photon_map: PhotonMapSettings, passes: u32) -> Moments {
@@ -54,21 +51,6 @@ fn few_photons() -> PhotonMapSettings {
     }
 }
 
-/// Fails unless the means agree, and are known to `power`.
-fn assert_same(a: &Moments, b: &Moments, power: f64, what: &str) {
-    let error = (a.variance_of_mean() + b.variance_of_mean()).sqrt();
-    println!(
-        "{what}: {} and {} ± {error}, {:+.2} %",
-        a.mean(),
-        b.mean(),
-        100.0 * (a.mean() / b.mean() - 1.0)
-    );
-    assert!(error < power * b.mean(), "{what}: an error of {error} in {} shows nothing", b.mean());
-    let chance =
-        welch_t(a.mean(), a.variance_of_mean(), a.count(), b.mean(), b.variance_of_mean(), b.count());
-    assert!(chance > LEVEL, "{what}: {} and {} ± {error}, p = {chance}", a.mean(), b.mean());
-}
-
 fn square_lamp(center: DVec3, half: f64) -> ShapeDescription {
     // Its normal is down.
     rectangle(center, DVec3::X * half, DVec3::Z * half)
@@ -101,20 +83,6 @@ fn light_through_a_water_surface_is_that_of_path_tracing() {
         let paths = means(&world, "path", photon_map, 200);
         assert_same(&maps, &paths, 0.018, what);
     }
-}
-
-/// A matte ball with things in it, all of finite curvature, so that no look-up reaches over an edge.
-fn hollow(lamp: impl FnOnce(&mut SceneKit)) -> SceneKit {
-    let mut kit = SceneKit::new();
-    kit.matte("matte", 0.7).surface("wall", sphere(DVec3::ZERO, 2.0), "matte");
-    kit.medium("glass", 1.5).solid("lens", sphere(DVec3::new(0.5, -0.5, -0.8), 0.6), "glass");
-    lamp(&mut kit);
-    kit.camera(DVec3::new(0.0, 0.1, 1.2), DVec3::new(0.1, -0.2, -1.0));
-    kit
-}
-
-fn lamp_ball(kit: &mut SceneKit) {
-    kit.lamp("lamp", sphere(DVec3::new(-0.6, 0.9, 0.3), 0.3), 4.0);
 }
 
 fn point_light(kit: &mut SceneKit) {

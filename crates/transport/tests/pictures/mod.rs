@@ -126,3 +126,21 @@ fn whole(tiles: &[Moments]) -> (f64, f64) {
     let mean = tiles.iter().map(Moments::mean).sum::<f64>() / count;
     (mean, tiles.iter().map(Moments::variance_of_mean).sum::<f64>() / (count * count))
 }
+
+/// Chance of calling pictures different that are not.
+const LEVEL: f64 = 1e-3;
+
+/// Fails unless the means agree, and are known to `power`.
+pub fn assert_same(a: &Moments, b: &Moments, power: f64, what: &str) {
+    let error = (a.variance_of_mean() + b.variance_of_mean()).sqrt();
+    println!(
+        "{what}: {} and {} ± {error}, {:+.2} %",
+        a.mean(),
+        b.mean(),
+        100.0 * (a.mean() / b.mean() - 1.0)
+    );
+    assert!(error < power * b.mean(), "{what}: an error of {error} in {} shows nothing", b.mean());
+    let chance =
+        welch_t(a.mean(), a.variance_of_mean(), a.count(), b.mean(), b.variance_of_mean(), b.count());
+    assert!(chance > LEVEL, "{what}: {} and {} ± {error}, p = {chance}", a.mean(), b.mean());
+}

@@ -251,3 +251,17 @@ pub fn assert_mean(moments: &Moments, expected: f64, what: &str) {
     let mean = moments.mean();
     assert!((mean - expected).abs() <= allowed, "{what}: {mean} ± {error}, expected {expected}");
 }
+
+/// A matte ball with things in it, all of finite curvature, so that no look-up reaches over an edge.
+pub fn hollow(lamp: impl FnOnce(&mut SceneKit)) -> SceneKit {
+    let mut kit = SceneKit::new();
+    kit.matte("matte", 0.7).surface("wall", sphere(DVec3::ZERO, 2.0), "matte");
+    kit.medium("glass", 1.5).solid("lens", sphere(DVec3::new(0.5, -0.5, -0.8), 0.6), "glass");
+    lamp(&mut kit);
+    kit.camera(DVec3::new(0.0, 0.1, 1.2), DVec3::new(0.1, -0.2, -1.0));
+    kit
+}
+
+pub fn lamp_ball(kit: &mut SceneKit) {
+    kit.lamp("lamp", sphere(DVec3::new(-0.6, 0.9, 0.3), 0.3), 4.0);
+}

@@ -50,7 +50,7 @@ impl Eye<'_> {
         radius: f32,
     ) -> Spectrum {
         let medium = &self.world.media[place.medium.index()];
-        let density = medium.grid.as_ref().map_or(1.0, |grid| grid.density(place.p));
+        let density = medium.density(place.p);
         let own = self.volume_ratio(place, radius, photons.landed.sent);
         let sum = photons.landed.volume(place.p, radius, |photon| {
             let phase = medium.phase.value(wo, -photon.direction);

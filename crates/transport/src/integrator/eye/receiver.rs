@@ -56,7 +56,7 @@ impl Eye<'_> {
     /// The factor of a place in a medium, but for the density of the direction.
     pub(super) fn volume_ratio(&self, place: &VolumeVertex, radius: f32, sent: f32) -> f32 {
         let medium = &self.world.media[place.medium.index()];
-        let density = medium.grid.as_ref().map_or(1.0, |grid| grid.density(place.p));
+        let density = medium.density(place.p);
         let sigma = medium.sigma_t().mean(self.world.lanes) * density;
         weight::in_volume(sent, radius, medium.ior, sigma, 1.0)
     }
