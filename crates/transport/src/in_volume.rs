@@ -4,21 +4,25 @@ use crate::shadow;
 use crate::stats::Stats;
 use crate::walk::VolumeVertex;
 use hyaline_math::Vec3;
-use hyaline_sampling::{Sampler, mis};
+use hyaline_sampling::Sampler;
 use hyaline_scattering::{MediumSet, Phase};
 use hyaline_spectrum::Spectrum;
 use hyaline_world::World;
+use hyaline_world::light::{DirectSample, LightChoice};
 
 /// Light of one light, chosen at random, that the medium sends back along the path: an estimate of the sum over all
 /// lights, to be shared with directions drawn from the phase function.
 ///
 /// - `wo`: unit, back along the path.
 /// - `set`: what the place is in.
+/// - `others`: squared densities of further ways to find the light over that of sampling it, for a sample and the value
+///   of the phase function.
 pub fn sample_one_light(
     world: &World,
     vertex: &VolumeVertex,
     wo: Vec3,
     set: &MediumSet,
+    others: impl FnOnce(&LightChoice, &DirectSample, f32) -> f32,
     sampler: &mut Sampler,
     stats: &mut Stats,
 ) -> Spectrum {
@@ -31,14 +35,13 @@ pub fn sample_one_light(
     if phase == 0.0 || sample.radiance.is_zero() {
         return Spectrum::ZERO;
     }
-    let weight = match sample.is_delta {
-        true => 1.0,
-        false => mis::power(sample.pdf_w * choice.probability, phase),
-    };
+    let density = sample.pdf_w * choice.probability;
+    let hitting = if sample.is_delta { 0.0 } else { phase / density };
+    let weight = 1.0 / (1.0 + hitting * hitting + others(&choice, &sample, phase));
     let ray = shadow::ray_from(vertex.p, &sample, 0.0);
     let way = shadow::straight_way(world, &ray, set, stats);
     let visible = way.shared * weight + way.alone;
-    sample.radiance * visible * (phase / (sample.pdf_w * choice.probability))
+    sample.radiance * visible * (phase / density)
 }
 
 /// The phase function in force at a place.

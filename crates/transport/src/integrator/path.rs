@@ -10,7 +10,6 @@ use hyaline_sampling::Sampler;
 use hyaline_scattering::MediumSet;
 use hyaline_spectrum::Spectrum;
 use hyaline_world::World;
-use hyaline_world::camera::PixelSpread;
 use std::sync::atomic::AtomicBool;
 
 /// Unidirectional path tracing with light sampling.
@@ -45,8 +44,6 @@ pub fn radiance(
     stats: &mut Stats,
     first: Option<&mut PixelSample>,
 ) -> Spectrum {
-    // Only gathering asks for the size of a pixel.
-    let spread = PixelSpread { width: 0.0, angle: 0.0 };
-    let eye = Eye { world, settings, spread, photons: None };
+    let eye = Eye { world, settings, photons: None };
     eye.radiance(ray, set, &mut Draws { sampler, stats }, first)
 }

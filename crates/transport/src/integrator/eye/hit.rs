@@ -1,7 +1,6 @@
 //! Lights that a path comes to by itself.
 
 use super::{Eye, Path, weight};
-use crate::integrator::merging::emission_density;
 use crate::walk::Vertex;
 use hyaline_math::Vec3;
 use hyaline_spectrum::Spectrum;
@@ -21,8 +20,7 @@ impl Eye<'_> {
             let chance = self.world.lights.direct().probability(index as usize);
             chance * light.pdf_direct(p, direction, Some(hit)) / pdf
         });
-        let merging = self.merging(path, index as usize, Some(hit.ng));
-        radiance * weight::power(sampling * sampling + merging * merging)
+        radiance * weight::power(sampling * sampling + self.merging(path, index as usize, Some(hit.ng)))
     }
 
     /// Light of the surroundings.
@@ -39,23 +37,20 @@ impl Eye<'_> {
                 lights.direct().probability(index as usize) * light.pdf_direct(p, path.ray.direction, None)
                     / pdf
             });
-            let merging = self.merging(path, index as usize, None);
-            let weight = weight::power(sampling * sampling + merging * merging);
+            let weight = weight::power(sampling * sampling + self.merging(path, index as usize, None));
             result += light.radiance_of_sky(path.ray.direction) * weight;
         }
         result
     }
 
-    /// Density of merging over that of hitting the light that the path has come to.
+    /// Squared densities of all ways to merge over that of hitting the light that the path has come to.
     ///
     /// - `n`: outward normal of the light at the place; `None` for the surroundings.
     fn merging(&self, path: &Path, index: usize, n: Option<Vec3>) -> f32 {
-        match (path.receiver, &self.photons) {
-            (Some(receiver), Some(photons)) if receiver.chain > 0 => {
-                let direction = -path.ray.direction;
-                receiver.ratio * emission_density(self.world, photons.emitter, index, n, direction, &path.set)
-            }
-            _ => 0.0,
-        }
+        let squares = path.merges.at_light();
+        let Some(photons) = self.photons.as_ref().filter(|_| squares > 0.0) else { return 0.0 };
+        let sender = photons.senders.of(path.merges.is_specular());
+        let light = sender.density(self.world, index, n, -path.ray.direction, &path.set);
+        squares * light * light
     }
 }

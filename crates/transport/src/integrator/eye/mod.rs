@@ -3,15 +3,15 @@
 //! 1. Walk to the next surface or, in a medium that scatters, to the next particle; what lies between is filtered by the
 //!    medium the path is in.
 //! 2. If the surface shines, add its light, weighed against the other ways to find it.
-//! 3. If the vertex is not polished, gather the photons about it, sample a light, and add what reaches the vertex.
+//! 3. If the vertex is not singular, gather the photons about it, sample a light, and add what reaches the vertex.
 //! 4. Go on in a direction drawn from the BSDF or phase function. Singular crossings are free: there is no limit on
 //!    them.
 //! 5. Weak paths end by roulette on their throughput without the n² factor, so none dies for being inside glass.
 
-mod footprint;
 mod hit;
-mod place;
-mod receiver;
+mod merges;
+pub(super) mod place;
+pub(super) mod radius;
 mod surface;
 pub(super) mod weight;
 
@@ -22,22 +22,18 @@ use crate::integrator::merging::Photons;
 use crate::roulette::{PATIENCE_WITH_SHADING_NORMALS, eye_survival};
 use crate::stats::Stats;
 use crate::walk::{self, Event, Flown};
-use footprint::Footprint;
 use hyaline_film::PixelSample;
 use hyaline_math::Ray;
 use hyaline_sampling::Sampler;
 use hyaline_scattering::MediumSet;
 use hyaline_spectrum::Spectrum;
-use hyaline_world::camera::PixelSpread;
 use hyaline_world::{World, mask};
-use receiver::Receiver;
+use merges::Merges;
 
 /// What paths have in common.
 pub(super) struct Eye<'a> {
     pub(super) world: &'a World,
     pub(super) settings: &'a RenderSettings,
-    /// Size of a pixel in the scene.
-    pub(super) spread: PixelSpread,
     /// Photons to gather.
     pub(super) photons: Option<Photons<'a>>,
 }
@@ -56,9 +52,7 @@ struct Path {
     /// The n² factors collected so far: radiance inside a medium is larger, but the path is not worth more there.
     index_scale: f32,
     last: LastScatter,
-    /// Where photons would be merged that come the way that the path goes.
-    receiver: Option<Receiver>,
-    footprint: Footprint,
+    merges: Merges,
     /// Which items the next ray sees.
     visible: u8,
     /// Scatterings so far, singular ones not counted.
@@ -102,7 +96,6 @@ impl Eye<'_> {
                 vertex.bsdf = vertex.bsdf.without_shading_normal();
             }
             path.throughput *= vertex.transmittance;
-            path.footprint.travel(vertex.distance);
             if let Some(sample) = first.take() {
                 first_hit::record(sample, &vertex, &path.ray);
             }
@@ -120,8 +113,7 @@ impl Eye<'_> {
             throughput: Spectrum::ONE,
             index_scale: 1.0,
             last: LastScatter::default(),
-            receiver: None,
-            footprint: Footprint::of_pixel(self.spread),
+            merges: Merges::default(),
             visible: mask::CAMERA,
             bounces: 0,
             crossings: 0,
@@ -144,6 +136,11 @@ impl Eye<'_> {
     /// Whether the path may scatter once more and still be counted.
     fn may_bounce(&self, path: &Path) -> bool {
         self.settings.max_depth.is_none_or(|limit| path.bounces < limit)
+    }
+
+    /// Bounces that photons merged at the next vertex may have made, and one more.
+    fn bounces_left(&self, path: &Path) -> u32 {
+        self.settings.max_depth.map_or(u32::MAX, |limit| limit.saturating_sub(path.bounces))
     }
 
     /// Roulette, once a path has scattered; returns whether it goes on.

@@ -1,13 +1,13 @@
 //! What a path does at a surface.
 
-use super::weight::{self, SideOfChain};
+use super::weight::{self, Side};
 use super::{Draws, Eye, Path};
-use crate::integrator::merging::{Photons, emission_density};
+use crate::integrator::merging::Photons;
 use crate::photon::specular::is_specular;
 use crate::shadow;
 use crate::walk::Vertex;
 use hyaline_math::Vec3;
-use hyaline_scattering::{MediumSet, Transport};
+use hyaline_scattering::{BsdfSample, MediumSet, Transport};
 use hyaline_spectrum::Spectrum;
 use hyaline_world::light::{DirectSample, LightChoice};
 use std::f32::consts::PI;
@@ -16,16 +16,11 @@ impl Eye<'_> {
     /// Gathers, samples a light and scatters; returns whether the path goes on.
     pub(super) fn at_surface(&self, path: &mut Path, vertex: &Vertex, draws: &mut Draws<'_>) -> bool {
         let wo = -path.ray.direction;
-        let is_wide = !is_specular(&vertex.bsdf);
-        let shrink = self.photons.as_ref().map_or(0.0, |photons| photons.shrink.surface);
-        let radius = path.footprint.radius() * shrink;
         if !vertex.bsdf.is_delta() && self.may_bounce(path) {
-            if let Some(photons) = &self.photons
-                && (is_wide || path.receiver.is_none())
-            {
-                path.light += path.throughput * self.gather(path, vertex, wo, photons, radius);
+            if let Some(photons) = &self.photons {
+                path.light += path.throughput * self.gather(path, vertex, wo, photons);
             }
-            path.light += path.throughput * self.sampled_light(path, vertex, wo, is_wide, draws);
+            path.light += path.throughput * self.sampled_light(path, vertex, wo, draws);
         }
         let (u_lobe, u) = (draws.sampler.next_1d(), draws.sampler.next_2d());
         let Some(scattered) = vertex.bsdf.sample(wo, u_lobe, u, Transport::Radiance) else { return false };
@@ -41,48 +36,69 @@ impl Eye<'_> {
         path.last.record(vertex, &scattered);
         if scattered.is_delta {
             path.crossings += 1;
-            path.receiver.iter_mut().for_each(|receiver| receiver.chain += 1);
+            path.merges.pass_singular();
         } else {
             path.bounces += 1;
             path.crossings = 0;
-            self.note_receiver(path, vertex, &scattered, is_wide, ior_before, radius);
-            path.footprint.scatter(scattered.pdf);
+            self.note_merge(path, vertex, &scattered, ior_before);
         }
         path.ray = vertex.leave(scattered.wi, path.ray.time);
         self.survives(path, draws)
     }
 
-    /// Light of the photons about a vertex.
-    fn gather(&self, path: &Path, vertex: &Vertex, wo: Vec3, photons: &Photons<'_>, radius: f32) -> Spectrum {
-        let hit = &vertex.hit;
-        let own = weight::at_receiver(photons.landed.sent, radius, 1.0, 1.0, 1.0);
+    /// Keeps the sum over merges true where a direction has been drawn from a lobe that is not singular.
+    ///
+    /// - `ior_before`: index on the side that the path came from.
+    fn note_merge(&self, path: &mut Path, vertex: &Vertex, scattered: &BsdfSample, ior_before: f32) {
+        let Some(photons) = &self.photons else { return };
         let ior = self.world.ior(path.set.active());
+        let toward_light = side(vertex, scattered.wi, scattered.pdf, ior);
+        let radius = photons.radius.on_surface(vertex.hit.p);
+        let own = weight::at_receiver(radius, ior, toward_light.cos, scattered.pdf);
+        let mut across = 0.0;
+        if path.merges.behind() > 0.0 {
+            let wo = -path.ray.direction;
+            let back = side(vertex, wo, vertex.bsdf.pdf(scattered.wi, wo), ior_before);
+            across = weight::across(back, toward_light);
+        }
+        path.merges.pass(own, across, is_specular(&vertex.bsdf));
+    }
+
+    /// Light of the photons about a vertex.
+    fn gather(&self, path: &Path, vertex: &Vertex, wo: Vec3, photons: &Photons<'_>) -> Spectrum {
+        let hit = &vertex.hit;
+        let radius = photons.radius.on_surface(hit.p);
+        let left = self.bounces_left(path);
+        let ior_before = self.world.ior(path.set.active());
+        let behind = path.merges.behind();
         let sum = photons.landed.surface(hit.p, radius, |photon| {
             let wi = -photon.direction;
-            let cos = wi.dot(hit.ng).abs();
             let f = vertex.bsdf.eval(wo, wi, Transport::Radiance);
-            if f.is_zero() || cos == 0.0 {
+            if f.is_zero() || photon.bounces >= left {
                 return Spectrum::ZERO;
             }
             let ior = match crosses(vertex, wo, wi) {
                 true => self.world.ior(vertex.far_set(self.world, &path.set).active()),
-                false => ior,
+                false => ior_before,
             };
-            let ratio = own * ior * ior * cos / vertex.bsdf.pdf(wo, wi);
-            f * photon.flux * (weight::power(photon.others / (ratio * ratio)) / cos)
+            let toward_light = side(vertex, wi, vertex.bsdf.pdf(wo, wi), ior);
+            if toward_light.cos == 0.0 {
+                return Spectrum::ZERO;
+            }
+            let own = weight::at_receiver(radius, ior, toward_light.cos, toward_light.pdf);
+            let mut others = photon.others;
+            if behind > 0.0 {
+                let back = side(vertex, wo, vertex.bsdf.pdf(wi, wo), ior_before);
+                let across = weight::across(back, toward_light);
+                others += behind * across * across;
+            }
+            f * photon.flux * (weight::power(others / (own * own)) / toward_light.cos)
         });
         sum * (1.0 / (PI * radius * radius))
     }
 
     /// Light of one light, chosen at random, by a shadow ray.
-    fn sampled_light(
-        &self,
-        path: &Path,
-        vertex: &Vertex,
-        wo: Vec3,
-        is_wide: bool,
-        draws: &mut Draws<'_>,
-    ) -> Spectrum {
+    fn sampled_light(&self, path: &Path, vertex: &Vertex, wo: Vec3, draws: &mut Draws<'_>) -> Spectrum {
         let (u_choice, u) = (draws.sampler.next_1d(), draws.sampler.next_2d());
         let Some(choice) = self.world.lights.direct().sample(u_choice) else { return Spectrum::ZERO };
         let Some(sample) = self.world.lights.get(choice.index).sample_direct(vertex.hit.p, u) else {
@@ -96,17 +112,17 @@ impl Eye<'_> {
         let set = far.as_ref().unwrap_or(&path.set);
         let density = sample.pdf_w * choice.probability;
         let hitting = if sample.is_delta { 0.0 } else { vertex.bsdf.pdf(wo, sample.wi) / density };
-        let merging = if is_wide { 0.0 } else { self.merging_of(path, vertex, wo, &choice, &sample, set) };
-        let weight = weight::power(hitting * hitting + merging * merging);
+        let merging = self.merging_over_sampling(path, vertex, wo, &choice, &sample, set);
+        let weight = weight::power(hitting * hitting + merging);
         let ray = shadow::ray_to_light(&vertex.hit, &sample, 0.0);
         let way = shadow::straight_way(self.world, &ray, set, draws.stats);
         contribution * (way.shared * weight + way.alone) * (1.0 / density)
     }
 
-    /// Density of merging over that of sampling a light from a nearly polished vertex.
+    /// Squared densities of all ways to merge over that of sampling a light.
     ///
     /// - `set`: what the path to the light is in.
-    fn merging_of(
+    fn merging_over_sampling(
         &self,
         path: &Path,
         vertex: &Vertex,
@@ -115,26 +131,24 @@ impl Eye<'_> {
         sample: &DirectSample,
         set: &MediumSet,
     ) -> f32 {
-        let (Some(receiver), Some(photons)) = (path.receiver, &self.photons) else { return 0.0 };
-        let ng = vertex.hit.ng;
-        let toward_light = SideOfChain {
-            // For lights that no path hits, sampling stands where drawing the direction would.
-            pdf: choice.probability * if sample.is_delta { 1.0 } else { sample.pdf_w },
-            ior: self.world.ior(set.active()),
-            cos: sample.wi.dot(ng).abs(),
-        };
-        let toward_receiver = SideOfChain {
-            pdf: vertex.bsdf.pdf(sample.wi, wo),
-            ior: self.world.ior(path.set.active()),
-            cos: wo.dot(ng).abs(),
-        };
-        let n = sample.target.map(|target| target.n);
-        let light = emission_density(self.world, photons.emitter, choice.index, n, -sample.wi, set);
-        let is_point = sample.is_delta && sample.distance.is_finite();
-        // For a point the square of the way stands for the cosine.
-        let light = if is_point { light / (sample.distance * sample.distance) } else { light };
-        receiver.ratio * weight::across(toward_receiver, toward_light) * light
+        let behind = path.merges.behind();
+        let Some(photons) = self.photons.as_ref().filter(|_| behind > 0.0) else { return 0.0 };
+        let pdf = choice.probability * sample.pdf_w;
+        let toward_light = side(vertex, sample.wi, pdf, self.world.ior(set.active()));
+        let back = vertex.bsdf.pdf(sample.wi, wo);
+        let toward_receiver = side(vertex, wo, back, self.world.ior(path.set.active()));
+        let sender = photons.senders.of(is_specular(&vertex.bsdf));
+        let light = sender.density_of_sample(self.world, choice.index, sample, set);
+        let factor = weight::across(toward_receiver, toward_light) * light;
+        behind * factor * factor
     }
+}
+
+/// A side of a vertex.
+///
+/// - `w`: the direction on that side; `pdf`: its density, drawn from the other.
+fn side(vertex: &Vertex, w: Vec3, pdf: f32, ior: f32) -> Side {
+    Side { pdf, ior, cos: w.dot(vertex.hit.ng).abs() }
 }
 
 /// Whether light from `wi` crosses the surface on its way to `wo`.

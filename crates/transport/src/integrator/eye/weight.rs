@@ -1,45 +1,49 @@
 //! What a path counts for that can be made in several ways.
 //!
-//! Take a path whose wide vertex x nearest to the light is joined with it by a chain of polished or nearly polished ones.
-//! It is made by
+//! A path from the eye to a light is made by
 //!
-//! - hitting the light: directions drawn at x and at each vertex of the chain;
-//! - sampling the light at the last vertex of the chain, where that is rough;
-//! - merging: a photon that lands within the gather radius of x.
+//! - hitting the light: all directions are drawn from the eye's side;
+//! - sampling the light at the last vertex, where that is not singular;
+//! - merging at any vertex that is not singular and not the last one: a photon, which has drawn all directions from the
+//!   light's side, lands within the gather radius of it.
 //!
 //! Densities compare in étendue, n² cos θ dA dω, which is the same on both ends of a free way and of a polished
-//! crossing. So the ratio of merging to hitting is a product of three kinds of factor:
+//! crossing. So the ratio of merging at x to hitting is a product of three kinds of factor:
 //!
 //! | place | factor |
 //! |---|---|
-//! | x, [`at_receiver`] | N π r² n² cos θ / p(x → chain); in a volume N 4/3 π r³ n² σ / p |
-//! | rough vertex of the chain, [`across`] | p(toward x) n² cos θ on the light's side / (p(toward light) n² cos θ on x's side) |
-//! | light, [`at_light`] | p_light p_position p_direction / (n² cos θ) |
+//! | x, [`at_receiver`] | π r² n² cos θ / p(x → light); in a volume 4/3 π r³ n² σ / p |
+//! | each vertex between x and the light, [`across`] | p(toward x) n² cos θ on the light's side / (p(toward light) n² cos θ on x's side); 1 where it is singular or in a volume |
+//! | light, [`at_light`] | N p_light p_position p_direction / (n² cos θ) |
 //!
-//! Merging and hitting know all factors of their side, and so agree. Weights are those of the power heuristic; any other
-//! function of the path would do as well, as long as all ways use the same one.
+//! Each way knows the factors of its own side, and so all agree. Weights are those of the power heuristic; any other
+//! function of the path would do as well, as long as all ways use the same one: the radius is that of the place, however
+//! it was reached, and roulette is left out.
+//!
+//! Source: Georgiev, Křivánek, Davidovič & Slusallek, Light transport simulation with vertex connection and merging, ACM TOG
+//! 31(6), 2012, in other words: their recursive quantities are the sums of squares here.
 
 use std::f32::consts::PI;
 
-/// The factor of the vertex that photons are merged at, on a surface.
+/// The factor of a vertex on a surface that photons are merged at.
 ///
-/// - `photons`: photons of a pass; `radius`: gather radius.
-/// - `ior`, `cos`: index and cosine (with the geometric normal) on the side of the chain.
-/// - `pdf`: density of the path's direction toward the chain, sr⁻¹.
-pub(in crate::integrator) fn at_receiver(photons: f32, radius: f32, ior: f32, cos: f32, pdf: f32) -> f32 {
-    photons * PI * radius * radius * ior * ior * cos / pdf
+/// - `radius`: gather radius.
+/// - `ior`, `cos`: index and cosine (with the geometric normal) on the side of the light.
+/// - `pdf`: density of the path's direction toward the light, sr⁻¹.
+pub(in crate::integrator) fn at_receiver(radius: f32, ior: f32, cos: f32, pdf: f32) -> f32 {
+    PI * radius * radius * ior * ior * cos / pdf
 }
 
 /// The factor of the place in a medium that photons are merged at.
 ///
 /// - `sigma`: mean extinction coefficient, 1 / scene unit: photons per length of their way that stop there.
-pub(in crate::integrator) fn in_volume(photons: f32, radius: f32, ior: f32, sigma: f32, pdf: f32) -> f32 {
-    photons * (4.0 / 3.0) * PI * radius * radius * radius * ior * ior * sigma / pdf
+pub(in crate::integrator) fn in_volume(radius: f32, ior: f32, sigma: f32, pdf: f32) -> f32 {
+    (4.0 / 3.0) * PI * radius * radius * radius * ior * ior * sigma / pdf
 }
 
-/// One side of a rough vertex of the chain.
+/// One side of a vertex that photons may pass.
 #[derive(Clone, Copy, Debug)]
-pub(in crate::integrator) struct SideOfChain {
+pub(in crate::integrator) struct Side {
     /// Density of the direction on this side, drawn from the other, sr⁻¹.
     pub(in crate::integrator) pdf: f32,
     /// Index of refraction.
@@ -48,18 +52,32 @@ pub(in crate::integrator) struct SideOfChain {
     pub(in crate::integrator) cos: f32,
 }
 
-/// The factor of a rough vertex of the chain.
-pub(in crate::integrator) fn across(toward_receiver: SideOfChain, toward_light: SideOfChain) -> f32 {
-    let etendue = |side: SideOfChain| side.ior * side.ior * side.cos;
-    toward_receiver.pdf * etendue(toward_light) / (toward_light.pdf * etendue(toward_receiver))
+impl Side {
+    /// Étendue of a unit of area and solid angle.
+    fn etendue(&self) -> f32 {
+        self.ior * self.ior * self.cos
+    }
+}
+
+/// The factor of a vertex between the receiver and the light.
+pub(in crate::integrator) fn across(toward_receiver: Side, toward_light: Side) -> f32 {
+    toward_receiver.pdf * toward_light.etendue() / (toward_light.pdf * toward_receiver.etendue())
 }
 
 /// The factor of the light.
 ///
+/// - `photons`: photons sent out in a pass that come this way.
 /// - `chance`: of the light among all, for emission; `position`, `direction`: densities of the emitted ray.
 /// - `ior`, `cos`: index and cosine at the light; 1 for the cosine at lights without a surface.
-pub(in crate::integrator) fn at_light(chance: f32, position: f32, direction: f32, ior: f32, cos: f32) -> f32 {
-    chance * position * direction / (ior * ior * cos)
+pub(in crate::integrator) fn at_light(
+    photons: f32,
+    chance: f32,
+    position: f32,
+    direction: f32,
+    ior: f32,
+    cos: f32,
+) -> f32 {
+    photons * chance * position * direction / (ior * ior * cos)
 }
 
 /// The power heuristic among one way and others.

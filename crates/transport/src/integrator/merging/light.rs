@@ -1,311 +1,315 @@
-//! Photons of a pass: from the lights through polished and nearly polished surfaces to the first wide one.
+//! Photons of a pass: from the lights through the scene, kept at every vertex that is not singular but for the first.
+//!
+//! What comes straight from a light is left to light sampling. Each photon carries the sum of the other ways to make its
+//! path, as the path from the eye carries that of its own side (`eye/merges`, `eye/weight`).
 
+use super::landed::{Landed, LandedPhoton};
+use super::sender::{Sender, Senders};
+use crate::RenderSettings;
 use crate::direct;
-use crate::integrator::eye::weight::{self, SideOfChain};
+use crate::in_volume;
+use crate::integrator::eye::place::volume_factor;
+use crate::integrator::eye::radius::GatherRadius;
+use crate::integrator::eye::weight::{self, Side};
+use crate::photon::PhotonStart;
 use crate::photon::specular::is_specular_event;
-use crate::photon::tree::{PointTree, Region};
-use crate::photon::{PhotonEmitter, PhotonStart};
 use crate::stats::Stats;
-use crate::walk::{self, Event, Flown, Vertex};
-use crate::{RenderSettings, View};
+use crate::walk::{self, Event, Flown, Vertex, VolumeVertex};
 use hyaline_geometry::SurfaceHit;
 use hyaline_math::{Ray, Vec2, Vec3};
 use hyaline_sampling::Sampler;
-use hyaline_scattering::{MediumSet, Transport};
+use hyaline_scattering::{BsdfSample, MediumSet, Transport};
 use hyaline_spectrum::Spectrum;
-use hyaline_world::light::Light;
+use hyaline_world::light::Light as WorldLight;
 use hyaline_world::{World, mask};
 use rayon::prelude::*;
+use std::ops::Range;
 
 /// Photons that one task follows; a fixed number, so that the same photons go together for any number of threads.
 const CHUNK: u32 = 2048;
-/// Crossings after which roulette ends even lossless photons now and then, and shading normals are left.
+/// Vertices after which roulette ends even lossless photons now and then, and shading normals are left.
 const PATIENCE: u32 = 64;
-/// Keys the photons' random numbers apart from the pixels'.
-const PHOTON_COLUMN: u32 = u32::MAX;
-/// Photons in a leaf of the tree.
-const LEAF: u32 = 16;
+/// Key the senders' random numbers apart from the pixels' and from each other's.
+const PHOTON_COLUMNS: [u32; 2] = [u32::MAX, u32::MAX - 1];
 
-/// A photon that has landed.
-#[derive(Clone, Copy, Debug)]
-pub(in crate::integrator) struct CausticPhoton {
-    /// The way it travelled, unit.
-    pub(in crate::integrator) direction: Vec3,
-    /// W, over all photons of the pass; in a medium what it scatters.
-    pub(in crate::integrator) flux: Spectrum,
-    /// Sum of the squares of the densities of the other ways to make its path, over that of merging, but for the factor
-    /// of the receiver, which the eye's path knows.
-    pub(in crate::integrator) others: f32,
+/// What the photons of a pass have in common.
+pub(super) struct Light<'a> {
+    pub(super) world: &'a World,
+    pub(super) senders: &'a Senders<'a>,
+    pub(super) settings: &'a RenderSettings,
+    pub(super) radius: GatherRadius,
 }
 
-/// All photons of a pass.
-pub(in crate::integrator) struct Landed {
-    /// Photons sent out.
-    pub(in crate::integrator) sent: f32,
-    /// Those on surfaces.
-    surface: PointTree<CausticPhoton>,
-    /// Those in media.
-    volume: PointTree<CausticPhoton>,
-}
-
-impl Landed {
-    /// Sum of the light of every photon on a surface within a radius.
-    pub(in crate::integrator) fn surface(
-        &self,
-        p: Vec3,
-        radius: f32,
-        light: impl FnMut(&CausticPhoton) -> Spectrum,
-    ) -> Spectrum {
-        sum(&self.surface, p, radius, light)
-    }
-
-    /// Sum of the light of every photon in a medium within a radius.
-    pub(in crate::integrator) fn volume(
-        &self,
-        p: Vec3,
-        radius: f32,
-        light: impl FnMut(&CausticPhoton) -> Spectrum,
-    ) -> Spectrum {
-        sum(&self.volume, p, radius, light)
-    }
-}
-
-fn sum(
-    tree: &PointTree<CausticPhoton>,
-    center: Vec3,
-    radius: f32,
-    mut light: impl FnMut(&CausticPhoton) -> Spectrum,
-) -> Spectrum {
-    let region = Region { center, radius, disc: None };
-    tree.fold_within(&region, Spectrum::ZERO, |sum, index, _| sum + light(tree.payload(index)))
-}
-
-/// Photons that a pass sends out: none where no light can reach anything polished.
-pub(super) fn count(emitter: &PhotonEmitter<'_>, view: &View) -> u32 {
-    if emitter.fraction() > 0.0 { (2 * view.width * view.height).clamp(1 << 12, 1 << 20) } else { 0 }
-}
-
-/// Sends out the photons of a pass.
-pub(super) fn trace(
-    world: &World,
-    emitter: &PhotonEmitter<'_>,
-    settings: &RenderSettings,
-    pass: u32,
-    photons: u32,
-    stats: &mut Stats,
-) -> Landed {
-    let chunks: Vec<Chunk> = (0..photons.div_ceil(CHUNK))
-        .into_par_iter()
-        .map(|index| {
-            let mut chunk = Chunk::default();
-            for photon in index * CHUNK..((index + 1) * CHUNK).min(photons) {
-                let sampler = Sampler::new(settings.sampler, settings.seed, (PHOTON_COLUMN, pass), photon);
-                chunk.follow(world, emitter, sampler, 1.0 / photons as f32);
+impl Light<'_> {
+    /// Sends out the photons of a pass.
+    pub(super) fn trace(&self, pass: u32, stats: &mut Stats) -> Landed {
+        let (mut surface, mut volume) = (Vec::new(), Vec::new());
+        for sender in [&self.senders.aimed, &self.senders.broad] {
+            let chunks: Vec<Chunk> = (0..sender.count.div_ceil(CHUNK))
+                .into_par_iter()
+                .map(|index| self.chunk(sender, pass, index * CHUNK..((index + 1) * CHUNK).min(sender.count)))
+                .collect();
+            stats.photons += u64::from(sender.count);
+            for chunk in chunks {
+                surface.extend(chunk.surface);
+                volume.extend(chunk.volume);
+                stats.add(&chunk.stats);
             }
-            chunk
-        })
-        .collect();
-    stats.photons += u64::from(photons);
-    let (mut surface, mut volume) = (Vec::new(), Vec::new());
-    for chunk in chunks {
-        surface.extend(chunk.surface);
-        volume.extend(chunk.volume);
-        stats.add(&chunk.stats);
+        }
+        Landed::new(surface, volume)
     }
-    let sent = photons as f32;
-    Landed { sent, surface: PointTree::build(surface, LEAF), volume: PointTree::build(volume, LEAF) }
+
+    fn chunk(&self, sender: &Sender<'_>, pass: u32, photons: Range<u32>) -> Chunk {
+        let column = PHOTON_COLUMNS[usize::from(sender.is_aimed)];
+        let mut chunk = Chunk::default();
+        for photon in photons {
+            let mut sampler = Sampler::new(self.settings.sampler, self.settings.seed, (column, pass), photon);
+            if let Some(photon) = self.start(sender, &mut sampler) {
+                self.follow(photon, &mut sampler, &mut chunk);
+            }
+        }
+        chunk
+    }
+
+    fn start<'a>(&'a self, sender: &'a Sender<'_>, sampler: &mut Sampler) -> Option<Photon<'a>> {
+        let start = sender.emitter.emit(sampler)?;
+        let light = self.world.lights.get(start.light as usize);
+        let at_light =
+            sender.density(self.world, start.light as usize, start.n, start.ray.direction, &start.set);
+        let flux = start.flux * (1.0 / sender.count as f32);
+        let is_delta = direct::is_delta(light);
+        Some(Photon {
+            light,
+            sender,
+            is_delta,
+            set: start.set.clone(),
+            ray: start.ray,
+            flux,
+            full: flux.max_lane(self.world.lanes),
+            vertices: 0,
+            bounces: 0,
+            comes_straight: true,
+            others: if is_delta { 0.0 } else { (at_light * at_light).recip() },
+            at_light,
+            start,
+        })
+    }
+
+    fn follow(&self, mut photon: Photon<'_>, sampler: &mut Sampler, chunk: &mut Chunk) {
+        loop {
+            let goes_on = match self.walk(&mut photon, sampler, &mut chunk.stats) {
+                Flown::Arrived(Event::Sky { .. }) => false,
+                Flown::Arrived(Event::Surface(vertex)) => {
+                    self.at_surface(&mut photon, vertex, sampler, chunk)
+                }
+                Flown::Scattered(place) => self.at_place(&mut photon, &place, sampler, chunk),
+            };
+            if !goes_on || !photon.survives(self.world, sampler) {
+                return;
+            }
+        }
+    }
+
+    fn walk(&self, photon: &mut Photon<'_>, sampler: &mut Sampler, stats: &mut Stats) -> Flown {
+        let Photon { ray, set, flux, .. } = photon;
+        if self.world.has_volumes {
+            return walk::fly(self.world, ray, mask::PATH, set, *flux, sampler, stats).0;
+        }
+        Flown::Arrived(walk::advance(self.world, ray, mask::PATH, set, stats))
+    }
+
+    /// Whether a photon may scatter once more where it is, other than as polished surfaces do, and still be counted at
+    /// the next vertex.
+    fn may_bounce(&self, photon: &Photon<'_>) -> bool {
+        self.settings.max_depth.is_none_or(|limit| photon.bounces + 1 < limit)
+    }
+
+    /// Lands and scatters; returns whether the photon goes on.
+    fn at_surface(
+        &self,
+        photon: &mut Photon<'_>,
+        mut vertex: Vertex,
+        sampler: &mut Sampler,
+        chunk: &mut Chunk,
+    ) -> bool {
+        if photon.vertices > PATIENCE {
+            vertex.bsdf = vertex.bsdf.without_shading_normal();
+        }
+        photon.flux *= vertex.transmittance;
+        if photon.lands() && !vertex.bsdf.is_delta() {
+            chunk.surface.push((vertex.hit.p, photon.landed(photon.flux)));
+        }
+        let wo = -photon.ray.direction;
+        let (u_lobe, u): (f32, Vec2) = (sampler.next_1d(), sampler.next_2d());
+        let Some(scattered) = vertex.bsdf.sample(wo, u_lobe, u, Transport::Importance) else { return false };
+        let is_specular = is_specular_event(&vertex.bsdf, scattered.is_delta);
+        if photon.vertices == 0 && is_specular != photon.sender.is_aimed {
+            return false;
+        }
+        let ior_before = self.world.ior(photon.set.active());
+        if scattered.transmits {
+            vertex.commit(self.world, &mut photon.set);
+        }
+        if !scattered.is_delta {
+            // What comes straight through straight shadows, the vertex's own shadow rays bring.
+            if photon.vertices > 0 && photon.comes_straight || !self.may_bounce(photon) {
+                return false;
+            }
+            self.pass(photon, &vertex, &scattered, ior_before);
+        }
+        photon.comes_straight &= vertex.passes_straight(scattered.transmits);
+        photon.flux *= scattered.weight;
+        photon.ray = vertex.leave(scattered.wi, 0.0);
+        true
+    }
+
+    /// Lands and scatters at a particle; returns whether the photon goes on.
+    fn at_place(
+        &self,
+        photon: &mut Photon<'_>,
+        place: &VolumeVertex,
+        sampler: &mut Sampler,
+        chunk: &mut Chunk,
+    ) -> bool {
+        photon.flux *= place.weight;
+        if photon.lands() {
+            chunk.volume.push((place.p, photon.landed(photon.flux)));
+        }
+        let is_first = photon.vertices == 0;
+        let may_scatter = if is_first { !photon.sender.is_aimed } else { !photon.comes_straight };
+        if !may_scatter || !self.may_bounce(photon) {
+            return false;
+        }
+        let wo = -photon.ray.direction;
+        let phase = in_volume::phase_at(self.world, place);
+        let wi = phase.sample(wo, sampler.next_2d());
+        let pdf = phase.value(wo, wi);
+        let own = volume_factor(self.world, place, self.radius.in_volume(place.p)) / pdf;
+        let light = self.light_sampled(photon, place.p, wo, pdf, is_first);
+        photon.pass(light, own, 1.0);
+        photon.comes_straight = false;
+        photon.ray = Ray::new(place.p, wi);
+        true
+    }
+
+    /// Accounts for a vertex on a surface that is passed by a lobe that is not singular.
+    fn pass(&self, photon: &mut Photon<'_>, vertex: &Vertex, scattered: &BsdfSample, ior_before: f32) {
+        let wo = -photon.ray.direction;
+        let cos = |w: Vec3| w.dot(vertex.hit.ng).abs();
+        let toward_receiver =
+            Side { pdf: scattered.pdf, ior: self.world.ior(photon.set.active()), cos: cos(scattered.wi) };
+        let toward_light = Side { pdf: vertex.bsdf.pdf(scattered.wi, wo), ior: ior_before, cos: cos(wo) };
+        let radius = self.radius.on_surface(vertex.hit.p);
+        let own = weight::at_receiver(radius, toward_light.ior, toward_light.cos, toward_light.pdf);
+        let light = self.light_sampled(photon, vertex.hit.p, wo, toward_light.pdf, photon.vertices == 0);
+        photon.pass(light, own, weight::across(toward_receiver, toward_light));
+    }
+
+    /// What the vertex next to the light counts for that could have sampled it.
+    ///
+    /// - `wo`: back along the photon's way; `pdf`: density of that direction, drawn from the eye's side.
+    fn light_sampled(&self, photon: &Photon<'_>, p: Vec3, wo: Vec3, pdf: f32, is_first: bool) -> FirstVertex {
+        if !is_first {
+            return FirstVertex::Not;
+        }
+        let chance = self.world.lights.direct().probability(photon.start.light as usize);
+        if photon.is_delta {
+            // No path hits the light: sampling it stands where drawing its direction would.
+            let density = photon.at_light * per_cosine(photon.light, &photon.start, p);
+            return FirstVertex::Samples { ratio: chance / density, instead_of_pdf: pdf };
+        }
+        let direct = photon.light.pdf_direct(p, wo, light_hit(&photon.start).as_ref());
+        FirstVertex::Samples { ratio: chance * direct / (photon.at_light * pdf), instead_of_pdf: 1.0 }
+    }
 }
 
 /// What one task collects.
 #[derive(Default)]
 struct Chunk {
-    surface: Vec<(Vec3, CausticPhoton)>,
-    volume: Vec<(Vec3, CausticPhoton)>,
+    surface: Vec<(Vec3, LandedPhoton)>,
+    volume: Vec<(Vec3, LandedPhoton)>,
     stats: Stats,
 }
 
+/// What a vertex has to do with light sampling.
+enum FirstVertex {
+    /// Nothing: it is not next to the light.
+    Not,
+    /// It could have sampled the light.
+    Samples {
+        /// Density of that over that of hitting the light and the light's factor.
+        ratio: f32,
+        /// Factor on `across`, for lights that no path hits.
+        instead_of_pdf: f32,
+    },
+}
+
 /// A photon on its way.
-struct Photon<'w> {
-    light: &'w Light,
-    index: usize,
+struct Photon<'a> {
+    light: &'a WorldLight,
+    sender: &'a Sender<'a>,
     start: PhotonStart,
     /// Whether no path hits the light.
     is_delta: bool,
     ray: Ray,
+    set: MediumSet,
     flux: Spectrum,
-    /// Polished and nearly polished surfaces that it has met.
-    chain: u32,
+    /// What the largest lane of its flux was at first.
+    full: f32,
+    /// Vertices that it has passed.
+    vertices: u32,
+    /// Those of them that were not singular.
+    bounces: u32,
     /// Whether all it has done was to cross surfaces with straight shadows.
     comes_straight: bool,
     others: f32,
-    /// The factor of the light, for lights that paths can hit.
+    /// The factor of the light.
     at_light: f32,
 }
 
-impl Chunk {
-    fn follow(&mut self, world: &World, emitter: &PhotonEmitter<'_>, mut sampler: Sampler, share: f32) {
-        let Some((mut photon, mut set)) = start(world, emitter, &mut sampler, share) else { return };
-        let full = photon.flux.max_lane(world.lanes);
-        loop {
-            let event = if world.has_volumes {
-                let flown = walk::fly(
-                    world,
-                    &photon.ray,
-                    mask::PATH,
-                    &mut set,
-                    photon.flux,
-                    &mut sampler,
-                    &mut self.stats,
-                );
-                match flown.0 {
-                    Flown::Arrived(event) => event,
-                    Flown::Scattered(place) => {
-                        if photon.chain > 0 && !photon.comes_straight {
-                            self.volume.push((place.p, photon.land(photon.flux * place.weight)));
-                        }
-                        return;
-                    }
-                }
-            } else {
-                walk::advance(world, &photon.ray, mask::PATH, &mut set, &mut self.stats)
-            };
-            let Event::Surface(mut vertex) = event else { return };
-            if photon.chain > PATIENCE {
-                vertex.bsdf = vertex.bsdf.without_shading_normal();
-            }
-            photon.flux *= vertex.transmittance;
-            // What comes straight through straight shadows, the receiver's shadow rays bring.
-            if photon.chain > 0 && !photon.comes_straight && !vertex.bsdf.is_delta() {
-                self.surface.push((vertex.hit.p, photon.land(photon.flux)));
-            }
-            if !photon.go_on(world, &vertex, &mut set, &mut sampler, full) {
-                return;
-            }
-        }
-    }
-}
-
-fn start<'w>(
-    world: &'w World,
-    emitter: &PhotonEmitter<'_>,
-    sampler: &mut Sampler,
-    share: f32,
-) -> Option<(Photon<'w>, MediumSet)> {
-    let start = emitter.emit(sampler)?;
-    let index = start.light as usize;
-    let light = world.lights.get(index);
-    let at_light = emission_density(world, emitter, index, start.n, start.ray.direction, &start.set);
-    let is_delta = direct::is_delta(light);
-    let others = if is_delta { 0.0 } else { (at_light * at_light).recip() };
-    let (set, ray, flux) = (start.set.clone(), start.ray, start.flux * share);
-    Some((
-        Photon { light, index, start, is_delta, ray, flux, chain: 0, comes_straight: true, others, at_light },
-        set,
-    ))
-}
-
-/// The factor of a light, for photons that meet something polished first: those the emitter sends out, and their
-/// density is that of the light over the share of its light that is sent out.
-///
-/// - `direction`: the way the photon travels.
-pub(in crate::integrator) fn emission_density(
-    world: &World,
-    emitter: &PhotonEmitter<'_>,
-    light: usize,
-    n: Option<Vec3>,
-    direction: Vec3,
-    set: &MediumSet,
-) -> f32 {
-    let chance = world.lights.emission().probability(light) / emitter.fraction();
-    let pdf = world.lights.get(light).pdf_emission(n.unwrap_or(Vec3::Y), direction);
-    let cos = n.map_or(1.0, |n| n.dot(direction).abs());
-    weight::at_light(chance, pdf.position, pdf.direction, world.ior(set.active()), cos)
-}
-
 impl Photon<'_> {
-    fn land(&self, flux: Spectrum) -> CausticPhoton {
-        CausticPhoton { direction: self.ray.direction, flux, others: self.others }
+    /// Whether it is kept where it is now, if that is not singular.
+    fn lands(&self) -> bool {
+        // What comes straight, also through straight shadows, the receiver's shadow rays bring.
+        self.vertices > 0 && !self.comes_straight
     }
 
-    /// Scatters; returns whether the photon goes on.
-    fn go_on(
-        &mut self,
-        world: &World,
-        vertex: &Vertex,
-        set: &mut MediumSet,
-        sampler: &mut Sampler,
-        full: f32,
-    ) -> bool {
-        let wo = -self.ray.direction;
-        let (u_lobe, u): (f32, Vec2) = (sampler.next_1d(), sampler.next_2d());
-        let Some(scattered) = vertex.bsdf.sample(wo, u_lobe, u, Transport::Importance) else { return false };
-        if !is_specular_event(&vertex.bsdf, scattered.is_delta) {
-            return false;
+    fn landed(&self, flux: Spectrum) -> LandedPhoton {
+        LandedPhoton { direction: self.ray.direction, flux, others: self.others, bounces: self.bounces }
+    }
+
+    /// Accounts for a vertex that is not singular; `own` and `across` are its factors, see `weight`.
+    fn pass(&mut self, light: FirstVertex, own: f32, across: f32) {
+        let mut across = across;
+        match light {
+            FirstVertex::Not => self.others += own * own,
+            FirstVertex::Samples { ratio, instead_of_pdf } => {
+                self.others += ratio * ratio;
+                across *= instead_of_pdf;
+            }
         }
-        let ior_before = world.ior(set.active());
-        if scattered.transmits {
-            vertex.commit(world, set);
-        }
-        if !scattered.is_delta {
-            let toward_receiver = SideOfChain {
-                pdf: scattered.pdf,
-                ior: world.ior(set.active()),
-                cos: scattered.wi.dot(vertex.hit.ng).abs(),
-            };
-            let toward_light = SideOfChain {
-                pdf: vertex.bsdf.pdf(scattered.wi, wo),
-                ior: ior_before,
-                cos: wo.dot(vertex.hit.ng).abs(),
-            };
-            self.pass_rough(world, &vertex.hit, wo, toward_receiver, toward_light);
-        }
-        self.chain += 1;
-        self.comes_straight &= vertex.passes_straight(scattered.transmits);
-        self.flux *= scattered.weight;
-        let left = self.flux.max_lane(world.lanes) / full;
-        let survival = if self.chain > PATIENCE { left.min(0.9) } else { left.min(1.0) };
+        self.others /= across * across;
+        self.bounces += 1;
+    }
+
+    /// Roulette after a vertex: what goes on carries about as much as at first.
+    fn survives(&mut self, world: &World, sampler: &mut Sampler) -> bool {
+        self.vertices += 1;
+        let left = self.flux.max_lane(world.lanes) / self.full;
+        let survival = if self.vertices > PATIENCE { left.min(0.9) } else { left.min(1.0) };
         // Compared this way round, what is not a number ends the photon.
         let goes_on = sampler.next_1d() < survival;
-        if !goes_on {
-            return false;
-        }
         self.flux *= 1.0 / survival;
-        self.ray = vertex.leave(scattered.wi, 0.0);
-        true
-    }
-
-    /// Accounts for a rough vertex of the chain; at the first one the light could have been sampled, too.
-    fn pass_rough(
-        &mut self,
-        world: &World,
-        hit: &SurfaceHit,
-        wo: Vec3,
-        toward_receiver: SideOfChain,
-        toward_light: SideOfChain,
-    ) {
-        let mut sampled = 0.0;
-        let mut factor = weight::across(toward_receiver, toward_light);
-        if self.chain == 0 {
-            let chance = world.lights.direct().probability(self.index);
-            if self.is_delta {
-                // No path hits the light: sampling it stands where drawing its direction would.
-                factor *= toward_light.pdf;
-                sampled = chance / (self.at_light * per_cosine(self.light, &self.start, hit));
-            } else {
-                let direct = self.light.pdf_direct(hit.p, wo, light_hit(&self.start).as_ref());
-                sampled = chance * direct / (self.at_light * toward_light.pdf);
-            }
-        }
-        self.others = (self.others + sampled * sampled) / (factor * factor);
+        goes_on
     }
 }
 
 /// What stands for the cosine at a light that no path hits: the inverse square of the way to a point, 1 for parallel
 /// light.
-fn per_cosine(light: &Light, start: &PhotonStart, hit: &SurfaceHit) -> f32 {
+fn per_cosine(light: &WorldLight, start: &PhotonStart, p: Vec3) -> f32 {
     match light {
-        Light::Directional(_) => 1.0,
-        _ => 1.0 / start.origin.distance_squared(hit.p),
+        WorldLight::Directional(_) => 1.0,
+        _ => 1.0 / start.origin.distance_squared(p),
     }
 }
 

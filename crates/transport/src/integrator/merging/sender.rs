@@ -1,0 +1,95 @@
+//! Who sends out photons, and how densely: two senders share the light between them.
+//!
+//! The *aimed* sender makes all paths whose vertex next to the light is polished or nearly so; projection maps tell it
+//! where such are, and a photon of it that meets something else first is dropped. The *broad* sender makes all others,
+//! from the whole of the light. So a path can come from one of them alone, and either knows its density without asking
+//! which cell of a map a ray belongs to.
+
+use crate::integrator::View;
+use crate::integrator::eye::weight;
+use crate::photon::PhotonEmitter;
+use hyaline_math::Vec3;
+use hyaline_scattering::MediumSet;
+use hyaline_scene::ProjectionMaps;
+use hyaline_world::World;
+use hyaline_world::light::DirectSample;
+
+/// Cells of the projection maps along each axis.
+const PROJECTION_CELLS: u32 = 64;
+
+/// One kind of photons.
+pub(in crate::integrator) struct Sender<'w> {
+    pub(super) emitter: PhotonEmitter<'w>,
+    /// Photons that a pass sends out.
+    pub(super) count: u32,
+    /// Whether the first vertex of its photons passes them on as polished ones do.
+    pub(super) is_aimed: bool,
+}
+
+/// Both kinds.
+pub(in crate::integrator) struct Senders<'w> {
+    pub(super) aimed: Sender<'w>,
+    pub(super) broad: Sender<'w>,
+}
+
+impl<'w> Senders<'w> {
+    pub(super) fn new(world: &'w World, view: &View) -> Self {
+        let pixels = view.width * view.height;
+        let sender = |maps, share: u32, is_aimed| {
+            let emitter = PhotonEmitter::new(world, maps, PROJECTION_CELLS);
+            let count = if emitter.fraction() > 0.0 { (share * pixels).clamp(1 << 12, 1 << 20) } else { 0 };
+            Sender { emitter, count, is_aimed }
+        };
+        Self { aimed: sender(ProjectionMaps::Cells, 2, true), broad: sender(ProjectionMaps::None, 1, false) }
+    }
+
+    /// Who makes the paths whose vertex next to the light is polished or nearly so, or the others.
+    pub(in crate::integrator) fn of(&self, is_specular: bool) -> &Sender<'w> {
+        if is_specular { &self.aimed } else { &self.broad }
+    }
+
+    /// Whether there are photons at all.
+    pub(super) fn any(&self) -> bool {
+        self.aimed.count + self.broad.count > 0
+    }
+}
+
+impl Sender<'_> {
+    /// The factor of a light.
+    ///
+    /// - `n`: outward normal of the light at the place; `None` without a surface.
+    /// - `direction`: the way the photon travels.
+    /// - `set`: what the place is in.
+    pub(in crate::integrator) fn density(
+        &self,
+        world: &World,
+        light: usize,
+        n: Option<Vec3>,
+        direction: Vec3,
+        set: &MediumSet,
+    ) -> f32 {
+        if self.count == 0 {
+            return 0.0;
+        }
+        // The yes cells have the density of the light itself over the share of its light that they send out.
+        let chance = world.lights.emission().probability(light) / self.emitter.fraction();
+        let pdf = world.lights.get(light).pdf_emission(n.unwrap_or(Vec3::Y), direction);
+        let cos = n.map_or(1.0, |n| n.dot(direction).abs());
+        let ior = world.ior(set.active());
+        weight::at_light(self.count as f32, chance, pdf.position, pdf.direction, ior, cos)
+    }
+
+    /// The same toward a vertex that has sampled the light; for a point the square of the way stands for the cosine.
+    pub(in crate::integrator) fn density_of_sample(
+        &self,
+        world: &World,
+        light: usize,
+        sample: &DirectSample,
+        set: &MediumSet,
+    ) -> f32 {
+        let n = sample.target.map(|target| target.n);
+        let light = self.density(world, light, n, -sample.wi, set);
+        let is_point = sample.is_delta && sample.distance.is_finite();
+        if is_point { light / (sample.distance * sample.distance) } else { light }
+    }
+}
