@@ -134,9 +134,40 @@ pub fn fly(
     sampler: &mut Sampler,
     stats: &mut Stats,
 ) -> (Flown, Spectrum) {
-    let mut flights = Flights { sampler, throughput, lanes: world.lanes, emitted: Spectrum::ZERO };
+    fly_watched(world, ray, visible, set, throughput, sampler, stats, |_| ())
+}
+
+/// The same, and `watch` is shown every stretch of the way that lies in a medium that scatters everywhere alike.
+pub fn fly_watched(
+    world: &World,
+    ray: &Ray,
+    visible: u8,
+    set: &mut MediumSet,
+    throughput: Spectrum,
+    sampler: &mut Sampler,
+    stats: &mut Stats,
+    watch: impl FnMut(&Stretch<'_>),
+) -> (Flown, Spectrum) {
+    let mut flights = Flights { sampler, throughput, lanes: world.lanes, emitted: Spectrum::ZERO, watch };
     let flown = walk(world, ray, visible, set, &mut flights, stats);
     (flown, flights.emitted)
+}
+
+/// A straight part of a way, in one homogeneous medium that scatters.
+#[derive(Clone, Copy, Debug)]
+pub struct Stretch<'a> {
+    /// The medium.
+    pub medium: &'a Medium,
+    /// Its index.
+    pub id: MediumId,
+    /// From where, in which direction.
+    pub ray: Ray,
+    /// Length to the next crossing, scene units; may be infinite.
+    pub way: f32,
+    /// Length flown, scene units: to the next crossing, or to where the path scatters before it.
+    pub flown: f32,
+    /// Fraction of light left on the way to here.
+    pub left: Spectrum,
 }
 
 /// What media do to a path between two crossings.
@@ -144,35 +175,58 @@ trait Between {
     /// Follows the path over `distance` along `ray`; `left` is what of its light has come that far, and is updated.
     ///
     /// Returns the distance at which it scatters; `None` where it arrives.
-    fn pass(&mut self, medium: &Medium, ray: &Ray, distance: f32, left: &mut Spectrum) -> Option<f32>;
+    fn pass(
+        &mut self,
+        medium: (MediumId, &Medium),
+        ray: &Ray,
+        distance: f32,
+        left: &mut Spectrum,
+    ) -> Option<f32>;
 }
 
 /// Media dim the light and do nothing else.
 struct Dimmed;
 
 impl Between for Dimmed {
-    fn pass(&mut self, medium: &Medium, ray: &Ray, distance: f32, left: &mut Spectrum) -> Option<f32> {
+    fn pass(
+        &mut self,
+        (_, medium): (MediumId, &Medium),
+        ray: &Ray,
+        distance: f32,
+        left: &mut Spectrum,
+    ) -> Option<f32> {
         *left *= volume::transmittance(medium, ray, distance);
         None
     }
 }
 
 /// Media scatter and shine.
-struct Flights<'a> {
+struct Flights<'a, Watch> {
     sampler: &'a mut Sampler,
     throughput: Spectrum,
     lanes: usize,
     emitted: Spectrum,
+    watch: Watch,
 }
 
-impl Between for Flights<'_> {
-    fn pass(&mut self, medium: &Medium, ray: &Ray, distance: f32, left: &mut Spectrum) -> Option<f32> {
+impl<Watch: FnMut(&Stretch<'_>)> Between for Flights<'_, Watch> {
+    fn pass(
+        &mut self,
+        (id, medium): (MediumId, &Medium),
+        ray: &Ray,
+        distance: f32,
+        left: &mut Spectrum,
+    ) -> Option<f32> {
         if !medium.scatters() && !medium.shines() && medium.grid.is_none() {
-            return Dimmed.pass(medium, ray, distance, left);
+            return Dimmed.pass((id, medium), ray, distance, left);
         }
         let flyer =
             Flyer { throughput: self.throughput * *left, lanes: self.lanes, u: self.sampler.next_2d() };
         let flight = flyer.fly(medium, ray, distance);
+        if medium.grid.is_none() && medium.scatters() {
+            let flown = flight.scatters_at.unwrap_or(distance);
+            (self.watch)(&Stretch { medium, id, ray: *ray, way: distance, flown, left: *left });
+        }
         self.emitted += *left * flight.emitted;
         *left *= flight.weight;
         flight.scatters_at
@@ -196,7 +250,7 @@ fn walk(
         let medium = &world.media[within.index()];
         let candidate = world.geometry.closest(&ray, visible);
         let way = candidate.as_ref().map_or(f32::INFINITY, |candidate| candidate.t);
-        if let Some(t) = between.pass(medium, &ray, way, &mut transmittance) {
+        if let Some(t) = between.pass((within, medium), &ray, way, &mut transmittance) {
             let distance = distance + t;
             return Flown::Scattered(VolumeVertex {
                 p: ray.at(t),

@@ -48,18 +48,8 @@ impl Flyer {
         }
     }
 
-    /// Shares of the lanes in what is left of the path; those beyond the lanes that count are 0.
     fn shares(&self, weight: Spectrum) -> [f32; 4] {
-        let carried = (self.throughput * weight).to_lanes();
-        let mut shares: [f32; 4] =
-            std::array::from_fn(|i| if i < self.lanes { carried[i].max(0.0) } else { 0.0 });
-        let total: f32 = shares.iter().sum();
-        if total > 0.0 && total.is_finite() {
-            shares.iter_mut().for_each(|share| *share /= total);
-        } else {
-            shares = std::array::from_fn(|i| if i < self.lanes { 1.0 / self.lanes as f32 } else { 0.0 });
-        }
-        shares
+        shares_of(self.throughput * weight, self.lanes)
     }
 
     fn fly_homogeneous(&self, medium: &Medium, distance: f32) -> Flight {
@@ -142,6 +132,19 @@ impl Flyer {
     }
 }
 
+/// Shares of the lanes in what a path carries; those beyond the lanes that count are 0.
+pub(super) fn shares_of(carried: Spectrum, lanes: usize) -> [f32; 4] {
+    let carried = carried.to_lanes();
+    let mut shares: [f32; 4] = std::array::from_fn(|i| if i < lanes { carried[i].max(0.0) } else { 0.0 });
+    let total: f32 = shares.iter().sum();
+    if total > 0.0 && total.is_finite() {
+        shares.iter_mut().for_each(|share| *share /= total);
+    } else {
+        shares = std::array::from_fn(|i| if i < lanes { 1.0 / lanes as f32 } else { 0.0 });
+    }
+    shares
+}
+
 /// Possible collisions per unit of length where the density is 1.
 fn collision_rate(medium: &Medium, length: f32) -> f32 {
     let strongest = medium.sigma_t().to_lanes().into_iter().fold(0.0, f32::max);
@@ -186,6 +189,6 @@ fn pick(shares: &[f32; 4], u: f32) -> usize {
 }
 
 /// Mean over lanes by their shares.
-fn weighted(shares: &[f32; 4], values: Spectrum) -> f32 {
+pub(super) fn weighted(shares: &[f32; 4], values: Spectrum) -> f32 {
     shares.iter().zip(values.to_lanes()).map(|(share, value)| share * value).sum()
 }

@@ -3,6 +3,7 @@
 //! In a homogeneous medium both are known in closed form. Where a grid says how dense it is, paths are followed from one
 //! possible collision to the next, against local upper bounds of the density (delta and ratio tracking).
 
+mod beam;
 mod flight;
 mod grid;
 mod majorants;
@@ -10,6 +11,7 @@ mod majorants;
 mod tests;
 mod tracking;
 
+pub use beam::BeamWeight;
 pub use flight::{Flight, Flyer};
 pub use grid::{AlbedoGrid, Grid};
 pub use tracking::transmittance;

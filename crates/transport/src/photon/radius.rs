@@ -11,6 +11,8 @@ use hyaline_math::float;
 const ALPHA_SURFACE: f64 = 2.0 / 3.0;
 /// The same in volumes.
 const ALPHA_VOLUME: f64 = 4.0 / 7.0;
+/// The same for beams, whose radius itself takes the share.
+const ALPHA_BEAM: f64 = 4.0 / 5.0;
 /// Passes whose product is taken factor by factor; beyond, Stirling's series is exact to f32.
 const EXACT: u32 = 64;
 
@@ -19,8 +21,10 @@ const EXACT: u32 = 64;
 pub struct Shrink {
     /// On surfaces.
     pub surface: f32,
-    /// In volumes.
+    /// In volumes, of points.
     pub volume: f32,
+    /// In volumes, of beams.
+    pub beam: f32,
 }
 
 impl Shrink {
@@ -29,6 +33,7 @@ impl Shrink {
         Self {
             surface: share(pass, ALPHA_SURFACE).sqrt() as f32,
             volume: float::f64::cbrt(share(pass, ALPHA_VOLUME)) as f32,
+            beam: share(pass, ALPHA_BEAM) as f32,
         }
     }
 }
@@ -57,7 +62,7 @@ mod tests {
     #[test]
     fn shares_are_the_ratio_of_gamma_functions() {
         assert!((share(9, ALPHA_SURFACE) - 0.508_516).abs() < 1e-6, "{}", share(9, ALPHA_SURFACE));
-        for alpha in [ALPHA_SURFACE, ALPHA_VOLUME] {
+        for alpha in [ALPHA_SURFACE, ALPHA_VOLUME, ALPHA_BEAM] {
             assert_eq!(share(0, alpha), 1.0);
             for pass in [1, 5, 63, 64, 65, 100, 1000, 1_000_000] {
                 let p = f64::from(pass);

@@ -8,6 +8,7 @@
 //!    them.
 //! 5. Weak paths end by roulette on their throughput without the n² factor, so none dies for being inside glass.
 
+mod along;
 mod hit;
 mod merges;
 pub(super) mod place;
@@ -21,7 +22,8 @@ use crate::integrator::RenderSettings;
 use crate::integrator::merging::Photons;
 use crate::roulette::{PATIENCE_WITH_SHADING_NORMALS, eye_survival};
 use crate::stats::Stats;
-use crate::walk::{self, Event, Flown};
+use crate::walk::{self, Event, Flown, Stretch};
+use along::Along;
 use hyaline_film::PixelSample;
 use hyaline_math::Ray;
 use hyaline_sampling::Sampler;
@@ -123,13 +125,31 @@ impl Eye<'_> {
 
     /// To the next vertex. Where no medium does more than dim, nothing is drawn for it.
     fn walk(&self, path: &mut Path, draws: &mut Draws<'_>) -> Flown {
-        let Path { ray, set, visible, throughput, .. } = path;
+        let bounces_left = self.bounces_left(path);
+        let chance = if path.bounces == 0 { 1.0 } else { along::CHANCE_AFTER_BOUNCES };
+        let gathers = self.photons.is_some()
+            && self.world.has_volumes
+            && bounces_left > 0
+            && (path.bounces == 0 || draws.sampler.next_1d() < chance);
+        let Path { ray, set, visible, throughput, merges, .. } = path;
         if !self.world.has_volumes {
             return Flown::Arrived(walk::advance(self.world, ray, *visible, set, draws.stats));
         }
+        let along = self.photons.as_ref().filter(|_| gathers).map(|photons| Along {
+            photons,
+            world: self.world,
+            throughput: *throughput,
+            merges: *merges,
+            bounces_left,
+        });
+        let mut gathered = Spectrum::ZERO;
+        let watch = |stretch: &Stretch<'_>| {
+            gathered += along.as_ref().map_or(Spectrum::ZERO, |along| along.gather(stretch));
+        };
+        let (sampler, stats) = (&mut *draws.sampler, &mut *draws.stats);
         let (flown, emitted) =
-            walk::fly(self.world, ray, *visible, set, *throughput, draws.sampler, draws.stats);
-        path.light += path.throughput * emitted;
+            walk::fly_watched(self.world, ray, *visible, set, *throughput, sampler, stats, watch);
+        path.light += path.throughput * (emitted + gathered * (1.0 / chance));
         flown
     }
 

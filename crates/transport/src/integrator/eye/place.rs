@@ -1,9 +1,11 @@
 //! What a path does at a particle of a medium.
 
+use super::merges::{Beyond, Passed, Place};
+use super::radius::GatherRadius;
 use super::{Draws, Eye, Path, weight};
 use crate::direct::LastScatter;
 use crate::in_volume;
-use crate::integrator::merging::Photons;
+use crate::integrator::merging::{BEAM_SHARE, Photons};
 use crate::walk::VolumeVertex;
 use hyaline_math::{Ray, Vec3};
 use hyaline_spectrum::Spectrum;
@@ -17,7 +19,9 @@ impl Eye<'_> {
         let wo = -path.ray.direction;
         path.throughput *= place.weight;
         if self.may_bounce(path) {
-            if let Some(photons) = &self.photons {
+            if let Some(photons) = &self.photons
+                && self.world.media[place.medium.index()].grid.is_some()
+            {
                 path.light += path.throughput * self.gather_in_volume(path, place, wo, photons);
             }
             path.light += path.throughput * self.sampled_light_in_volume(path, place, wo, draws);
@@ -29,8 +33,10 @@ impl Eye<'_> {
         path.crossings = 0;
         path.last = LastScatter { sampled: Some((place.p, pdf)), is_covered: false };
         if let Some(photons) = &self.photons {
-            let own = volume_factor(self.world, place, photons.radius.in_volume(place.p));
-            path.merges.pass(own / pdf, 1.0, false);
+            let own = volume_factor(self.world, place, &photons.radius, [wo, wi]) / pdf;
+            let is_beam = self.world.media[place.medium.index()].grid.is_none();
+            let place = if is_beam { Place::Beams } else { Place::Grid };
+            path.merges.pass(&Passed { place, own, across: 1.0, is_specular: false });
         }
         path.ray = Ray { time: path.ray.time, ..Ray::new(place.p, wi) };
         self.survives(path, draws)
@@ -46,8 +52,9 @@ impl Eye<'_> {
     ) -> Spectrum {
         let medium = &self.world.media[place.medium.index()];
         let radius = photons.radius.in_volume(place.p);
-        let own = volume_factor(self.world, place, radius);
+        let own = point_factor(self.world, place, radius);
         let left = self.bounces_left(path);
+        let behind = path.merges.behind(Beyond::Wide);
         let sum = photons.landed.volume(place.p, radius, |photon| {
             if photon.bounces >= left {
                 return Spectrum::ZERO;
@@ -55,7 +62,7 @@ impl Eye<'_> {
             let phase = medium.phase.value(wo, -photon.direction);
             // Phase functions are the same both ways.
             let ratio = phase / own;
-            photon.flux * (phase * weight::power((photon.others + path.merges.behind()) * ratio * ratio))
+            photon.flux * (phase * weight::power((photon.others + behind) * ratio * ratio))
         });
         // Photons count what they scatter; what the path scatters is in its throughput already.
         let density = medium.density(place.p);
@@ -76,15 +83,40 @@ impl Eye<'_> {
             let across = phase / (sample.pdf_w * choice.probability);
             let light =
                 photons.senders.of(false).density_of_sample(self.world, choice.index, sample, &path.set);
-            let factor = across * light;
-            path.merges.behind() * factor * factor
+            let own = match self.world.media[place.medium.index()].grid {
+                Some(_) => 0.0,
+                None => {
+                    let ways = [wo, sample.wi];
+                    volume_factor(self.world, place, &photons.radius, ways)
+                        / (sample.pdf_w * choice.probability)
+                }
+            };
+            let behind = path.merges.behind(Beyond::Wide);
+            (behind * across * across + own * own) * light * light
         };
         in_volume::sample_one_light(self.world, place, wo, &path.set, merging, draws.sampler, draws.stats)
     }
 }
 
-/// The factor of a place in a medium, but for the density of the direction.
-pub(in crate::integrator) fn volume_factor(world: &World, place: &VolumeVertex, radius: f32) -> f32 {
+/// The factor of a place in a medium, but for the density of the direction: that of beams in homogeneous media, of points
+/// in others.
+///
+/// - `ways`: the two directions that meet there.
+pub(in crate::integrator) fn volume_factor(
+    world: &World,
+    place: &VolumeVertex,
+    radius: &GatherRadius,
+    ways: [Vec3; 2],
+) -> f32 {
+    let medium = &world.media[place.medium.index()];
+    if medium.grid.is_some() {
+        return point_factor(world, place, radius.in_volume(place.p));
+    }
+    let sin = ways[0].cross(ways[1]).length();
+    weight::of_beam(BEAM_SHARE, radius.of_beams(place.p), sin, medium.ior, medium.sigma_t().mean(world.lanes))
+}
+
+fn point_factor(world: &World, place: &VolumeVertex, radius: f32) -> f32 {
     let medium = &world.media[place.medium.index()];
     let sigma = medium.sigma_t().mean(world.lanes) * medium.density(place.p);
     weight::in_volume(radius, medium.ior, sigma, 1.0)

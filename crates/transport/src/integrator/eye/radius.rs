@@ -1,10 +1,13 @@
 //! How far photons are gathered from: a few pixels, as large as they are there.
 
-use hyaline_math::{DVec3, Vec3};
+use hyaline_math::{Bounds, DVec3, Vec3};
 use hyaline_world::camera::{Camera, PixelSpread};
 
 /// Gather radius in pixels, before it shrinks.
 const PIXELS: f32 = 2.5;
+/// How much larger it is on surfaces for photons that have been scattered widely on their way: what they bring is smooth,
+/// and they are few.
+pub(in crate::integrator) const INDIRECT: f32 = 2.0;
 
 /// The radius at every place of the scene. It goes by the straight way to the camera alone, so that photons that pass a
 /// vertex know it as well as paths that come to it: their weights ask for it.
@@ -23,14 +26,28 @@ impl GatherRadius {
         Self { spread: camera.spread(), camera: position.as_vec3(), shrink }
     }
 
-    /// On surfaces, scene units.
+    /// On surfaces, scene units, for photons that come over polished surfaces alone; others are gathered from [`INDIRECT`]
+    /// times as far.
     pub(in crate::integrator) fn on_surface(&self, p: Vec3) -> f32 {
         self.before_it_shrinks(p) * self.shrink.surface
     }
 
-    /// In volumes, scene units.
+    /// Of points in volumes, scene units.
     pub(in crate::integrator) fn in_volume(&self, p: Vec3) -> f32 {
         self.before_it_shrinks(p) * self.shrink.volume
+    }
+
+    /// Of beams, scene units.
+    pub(in crate::integrator) fn of_beams(&self, p: Vec3) -> f32 {
+        self.before_it_shrinks(p) * self.shrink.beam
+    }
+
+    /// The largest radius of beams anywhere in a box, and within that radius of it.
+    pub(in crate::integrator) fn of_beams_within(&self, bounds: &Bounds) -> f32 {
+        let farthest = (bounds.min - self.camera).abs().max((bounds.max - self.camera).abs());
+        let there = PIXELS * (self.spread.width + self.spread.angle * farthest.length()) * self.shrink.beam;
+        // Nearer to the far end of the radius itself it is larger by what the radius grows on the way.
+        there / (1.0 - PIXELS * self.spread.angle * self.shrink.beam).max(0.1)
     }
 
     fn before_it_shrinks(&self, p: Vec3) -> f32 {

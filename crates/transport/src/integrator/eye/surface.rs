@@ -1,8 +1,10 @@
 //! What a path does at a surface.
 
+use super::merges::{Beyond, Passed, Place};
+use super::radius::INDIRECT;
 use super::weight::{self, Side};
 use super::{Draws, Eye, Path};
-use crate::integrator::merging::Photons;
+use crate::integrator::merging::{LandedPhoton, Photons};
 use crate::photon::specular::is_specular;
 use crate::shadow;
 use crate::walk::Vertex;
@@ -56,45 +58,26 @@ impl Eye<'_> {
         let radius = photons.radius.on_surface(vertex.hit.p);
         let own = weight::at_receiver(radius, ior, toward_light.cos, scattered.pdf);
         let mut across = 0.0;
-        if path.merges.behind() > 0.0 {
+        if !path.merges.is_empty() {
             let wo = -path.ray.direction;
             let back = side(vertex, wo, vertex.bsdf.pdf(scattered.wi, wo), ior_before);
             across = weight::across(back, toward_light);
         }
-        path.merges.pass(own, across, is_specular(&vertex.bsdf));
+        let is_specular = is_specular(&vertex.bsdf);
+        path.merges.pass(&Passed { place: Place::Surface, own, across, is_specular });
     }
 
     /// Light of the photons about a vertex.
     fn gather(&self, path: &Path, vertex: &Vertex, wo: Vec3, photons: &Photons<'_>) -> Spectrum {
-        let hit = &vertex.hit;
-        let radius = photons.radius.on_surface(hit.p);
-        let left = self.bounces_left(path);
-        let ior_before = self.world.ior(path.set.active());
-        let behind = path.merges.behind();
-        let sum = photons.landed.surface(hit.p, radius, |photon| {
-            let wi = -photon.direction;
-            let f = vertex.bsdf.eval(wo, wi, Transport::Radiance);
-            if f.is_zero() || photon.bounces >= left {
-                return Spectrum::ZERO;
-            }
-            let ior = match crosses(vertex, wo, wi) {
-                true => self.world.ior(vertex.far_set(self.world, &path.set).active()),
-                false => ior_before,
-            };
-            let toward_light = side(vertex, wi, vertex.bsdf.pdf(wo, wi), ior);
-            if toward_light.cos == 0.0 {
-                return Spectrum::ZERO;
-            }
-            let own = weight::at_receiver(radius, ior, toward_light.cos, toward_light.pdf);
-            let mut others = photon.others;
-            if behind > 0.0 {
-                let back = side(vertex, wo, vertex.bsdf.pdf(wi, wo), ior_before);
-                let across = weight::across(back, toward_light);
-                others += behind * across * across;
-            }
-            f * photon.flux * (weight::power(others / (own * own)) / toward_light.cos)
-        });
-        sum * (1.0 / (PI * radius * radius))
+        let p = vertex.hit.p;
+        let radius = photons.radius.on_surface(p);
+        let of = |radius, beyond| Gather { eye: self, path, vertex, wo, radius, beyond };
+        let caustic = of(radius, beyond(vertex));
+        let indirect = of(radius * INDIRECT, Beyond::Wide);
+        let density = |radius: f32| 1.0 / (PI * radius * radius);
+        photons.landed.caustic(p, caustic.radius, |photon| caustic.light_of(photon)) * density(caustic.radius)
+            + photons.landed.indirect(p, indirect.radius, |photon| indirect.light_of(photon))
+                * density(indirect.radius)
     }
 
     /// Light of one light, chosen at random, by a shadow ray.
@@ -131,8 +114,7 @@ impl Eye<'_> {
         sample: &DirectSample,
         set: &MediumSet,
     ) -> f32 {
-        let behind = path.merges.behind();
-        let Some(photons) = self.photons.as_ref().filter(|_| behind > 0.0) else { return 0.0 };
+        let Some(photons) = self.photons.as_ref().filter(|_| !path.merges.is_empty()) else { return 0.0 };
         let pdf = choice.probability * sample.pdf_w;
         let toward_light = side(vertex, sample.wi, pdf, self.world.ior(set.active()));
         let back = vertex.bsdf.pdf(sample.wi, wo);
@@ -140,8 +122,54 @@ impl Eye<'_> {
         let sender = photons.senders.of(is_specular(&vertex.bsdf));
         let light = sender.density_of_sample(self.world, choice.index, sample, set);
         let factor = weight::across(toward_receiver, toward_light) * light;
-        behind * factor * factor
+        path.merges.behind(beyond(vertex)) * factor * factor
     }
+}
+
+/// Photons about a vertex, of one kind.
+struct Gather<'a> {
+    eye: &'a Eye<'a>,
+    path: &'a Path,
+    vertex: &'a Vertex,
+    /// Unit, back along the path.
+    wo: Vec3,
+    radius: f32,
+    /// The way from the path's earlier vertices over this one to the light.
+    beyond: Beyond,
+}
+
+impl Gather<'_> {
+    /// Weighted light of a photon, sent back along the path, times the area it is gathered from.
+    fn light_of(&self, photon: &LandedPhoton) -> Spectrum {
+        let Self { eye, path, vertex, wo, .. } = *self;
+        let wi = -photon.direction;
+        let f = vertex.bsdf.eval(wo, wi, Transport::Radiance);
+        if f.is_zero() || photon.bounces >= eye.bounces_left(path) {
+            return Spectrum::ZERO;
+        }
+        let ior_before = eye.world.ior(path.set.active());
+        let ior = match crosses(vertex, wo, wi) {
+            true => eye.world.ior(vertex.far_set(eye.world, &path.set).active()),
+            false => ior_before,
+        };
+        let toward_light = side(vertex, wi, vertex.bsdf.pdf(wo, wi), ior);
+        if toward_light.cos == 0.0 {
+            return Spectrum::ZERO;
+        }
+        let own = weight::at_receiver(self.radius, ior, toward_light.cos, toward_light.pdf);
+        let mut others = photon.others;
+        if !path.merges.is_empty() {
+            let back = side(vertex, wo, vertex.bsdf.pdf(wi, wo), ior_before);
+            let across = weight::across(back, toward_light);
+            others += path.merges.behind(self.beyond) * across * across;
+        }
+        f * photon.flux * (weight::power(others / (own * own)) / toward_light.cos)
+    }
+}
+
+/// The way to the light over a vertex, where nothing but polished and nearly polished ones are known to lie beyond it.
+fn beyond(vertex: &Vertex) -> Beyond {
+    if is_specular(&vertex.bsdf) { Beyond::Polished } else { Beyond::Wide }
 }
 
 /// A side of a vertex.

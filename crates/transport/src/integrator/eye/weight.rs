@@ -12,7 +12,7 @@
 //!
 //! | place | factor |
 //! |---|---|
-//! | x, [`at_receiver`] | π r² n² cos θ / p(x → light); in a volume 4/3 π r³ n² σ / p |
+//! | x, [`at_receiver`] | π r² n² cos θ / p(x → light); in a volume 4/3 π r³ n² σ / p; for beams 2 r sin θ n² / (σ p), θ between the two ways |
 //! | each vertex between x and the light, [`across`] | p(toward x) n² cos θ on the light's side / (p(toward light) n² cos θ on x's side); 1 where it is singular or in a volume |
 //! | light, [`at_light`] | N p_light p_position p_direction / (n² cos θ) |
 //!
@@ -39,6 +39,15 @@ pub(in crate::integrator) fn at_receiver(radius: f32, ior: f32, cos: f32, pdf: f
 /// - `sigma`: mean extinction coefficient, 1 / scene unit: photons per length of their way that stop there.
 pub(in crate::integrator) fn in_volume(radius: f32, ior: f32, sigma: f32, pdf: f32) -> f32 {
     (4.0 / 3.0) * PI * radius * radius * radius * ior * ior * sigma / pdf
+}
+
+/// The factor of a place in a homogeneous medium that beams are merged at, but for the density of the direction.
+///
+/// - `share`: of the photons that leave beams.
+/// - `sin`: sine of the angle between the path and the beam.
+/// - `sigma`: mean extinction coefficient, 1 / scene unit: what the path's density along its way is about.
+pub(in crate::integrator) fn of_beam(share: f32, radius: f32, sin: f32, ior: f32, sigma: f32) -> f32 {
+    share * 2.0 * radius * sin * ior * ior / sigma
 }
 
 /// One side of a vertex that photons may pass.

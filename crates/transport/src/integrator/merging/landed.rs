@@ -1,7 +1,10 @@
 //! The photons of a pass where they have landed.
 
+use super::beams::{Beam, Beams, Passing};
+use crate::integrator::eye::radius::GatherRadius;
 use crate::photon::tree::{PointTree, Region};
-use hyaline_math::Vec3;
+use hyaline_math::{Ray, Vec3};
+use hyaline_scattering::MediumId;
 use hyaline_spectrum::Spectrum;
 
 /// Photons in a leaf of the tree.
@@ -21,30 +24,75 @@ pub(in crate::integrator) struct LandedPhoton {
     pub(in crate::integrator) bounces: u32,
 }
 
+/// Photons that have landed at points.
+#[derive(Default)]
+pub(super) struct Points {
+    pub(super) caustic: Vec<(Vec3, LandedPhoton)>,
+    pub(super) indirect: Vec<(Vec3, LandedPhoton)>,
+    pub(super) volume: Vec<(Vec3, LandedPhoton)>,
+}
+
+impl Points {
+    pub(super) fn extend(&mut self, other: Self) {
+        self.caustic.extend(other.caustic);
+        self.indirect.extend(other.indirect);
+        self.volume.extend(other.volume);
+    }
+}
+
 /// All photons of a pass.
 pub(in crate::integrator) struct Landed {
-    /// Those on surfaces.
-    surface: PointTree<LandedPhoton>,
-    /// Those in media.
+    /// Those on surfaces that have come over polished and nearly polished ones alone.
+    caustic: PointTree<LandedPhoton>,
+    /// Those on surfaces that have been scattered widely on their way.
+    indirect: PointTree<LandedPhoton>,
+    /// Those in media with a grid.
     volume: PointTree<LandedPhoton>,
+    /// Those in homogeneous media.
+    beams: Beams,
 }
 
 impl Landed {
-    pub(super) fn new(surface: Vec<(Vec3, LandedPhoton)>, volume: Vec<(Vec3, LandedPhoton)>) -> Self {
-        Self { surface: PointTree::build(surface, LEAF), volume: PointTree::build(volume, LEAF) }
+    pub(super) fn new(points: Points, beams: Vec<Beam>, radius: GatherRadius) -> Self {
+        let Points { caustic, indirect, volume } = points;
+        let [caustic, indirect, volume] =
+            [caustic, indirect, volume].map(|photons| PointTree::build(photons, LEAF));
+        Self { caustic, indirect, volume, beams: Beams::new(beams, radius) }
     }
 
-    /// Sum of the light of every photon on a surface within a radius.
-    pub(in crate::integrator) fn surface(
+    /// Visits every beam of a medium that a ray of some length passes within the radius.
+    pub(in crate::integrator) fn beams(
+        &self,
+        ray: &Ray,
+        length: f32,
+        medium: MediumId,
+        visit: impl FnMut(&Beam, &Passing),
+    ) {
+        self.beams.passed(ray, length, medium, visit);
+    }
+
+    /// Sum of the light of every photon on a surface within a radius that has come over polished and nearly polished ones
+    /// alone.
+    pub(in crate::integrator) fn caustic(
         &self,
         p: Vec3,
         radius: f32,
         light: impl FnMut(&LandedPhoton) -> Spectrum,
     ) -> Spectrum {
-        sum(&self.surface, p, radius, light)
+        sum(&self.caustic, p, radius, light)
     }
 
-    /// Sum of the light of every photon in a medium within a radius.
+    /// The same of those that have been scattered widely on their way.
+    pub(in crate::integrator) fn indirect(
+        &self,
+        p: Vec3,
+        radius: f32,
+        light: impl FnMut(&LandedPhoton) -> Spectrum,
+    ) -> Spectrum {
+        sum(&self.indirect, p, radius, light)
+    }
+
+    /// Sum of the light of every photon in a medium with a grid within a radius.
     pub(in crate::integrator) fn volume(
         &self,
         p: Vec3,

@@ -3,24 +3,23 @@
 //! What comes straight from a light is left to light sampling. Each photon carries the sum of the other ways to make its
 //! path, as the path from the eye carries that of its own side (`eye/merges`, `eye/weight`).
 
-use super::landed::{Landed, LandedPhoton};
-use super::sender::{Sender, Senders};
+use super::beams::Beam;
+use super::landed::{Landed, LandedPhoton, Points};
+use super::origin::Origin;
+use super::sender::{BEAM_SHARE, Sender, Senders};
 use crate::RenderSettings;
-use crate::direct;
 use crate::in_volume;
 use crate::integrator::eye::place::volume_factor;
-use crate::integrator::eye::radius::GatherRadius;
+use crate::integrator::eye::radius::{GatherRadius, INDIRECT};
 use crate::integrator::eye::weight::{self, Side};
-use crate::photon::PhotonStart;
 use crate::photon::specular::is_specular_event;
 use crate::stats::Stats;
-use crate::walk::{self, Event, Flown, Vertex, VolumeVertex};
-use hyaline_geometry::SurfaceHit;
+use crate::walk::{self, Event, Flown, Stretch, Vertex, VolumeVertex};
 use hyaline_math::{Ray, Vec2, Vec3};
 use hyaline_sampling::Sampler;
+use hyaline_scattering::volume::BeamWeight;
 use hyaline_scattering::{BsdfSample, MediumSet, Transport};
 use hyaline_spectrum::Spectrum;
-use hyaline_world::light::Light as WorldLight;
 use hyaline_world::{World, mask};
 use rayon::prelude::*;
 use std::ops::Range;
@@ -43,7 +42,7 @@ pub(super) struct Light<'a> {
 impl Light<'_> {
     /// Sends out the photons of a pass.
     pub(super) fn trace(&self, pass: u32, stats: &mut Stats) -> Landed {
-        let (mut surface, mut volume) = (Vec::new(), Vec::new());
+        let (mut points, mut beams) = (Points::default(), Vec::new());
         for sender in [&self.senders.aimed, &self.senders.broad] {
             let chunks: Vec<Chunk> = (0..sender.count.div_ceil(CHUNK))
                 .into_par_iter()
@@ -51,12 +50,12 @@ impl Light<'_> {
                 .collect();
             stats.photons += u64::from(sender.count);
             for chunk in chunks {
-                surface.extend(chunk.surface);
-                volume.extend(chunk.volume);
+                points.extend(chunk.points);
+                beams.extend(chunk.beams);
                 stats.add(&chunk.stats);
             }
         }
-        Landed::new(surface, volume)
+        Landed::new(points, beams, self.radius)
     }
 
     fn chunk(&self, sender: &Sender<'_>, pass: u32, photons: Range<u32>) -> Chunk {
@@ -64,40 +63,44 @@ impl Light<'_> {
         let mut chunk = Chunk::default();
         for photon in photons {
             let mut sampler = Sampler::new(self.settings.sampler, self.settings.seed, (column, pass), photon);
-            if let Some(photon) = self.start(sender, &mut sampler) {
+            let leaves_beams = photon < sender.beams();
+            if let Some(photon) = self.start(sender, leaves_beams, &mut sampler) {
                 self.follow(photon, &mut sampler, &mut chunk);
             }
         }
         chunk
     }
 
-    fn start<'a>(&'a self, sender: &'a Sender<'_>, sampler: &mut Sampler) -> Option<Photon<'a>> {
+    fn start<'a>(
+        &'a self,
+        sender: &'a Sender<'_>,
+        leaves_beams: bool,
+        sampler: &mut Sampler,
+    ) -> Option<Photon<'a>> {
         let start = sender.emitter.emit(sampler)?;
-        let light = self.world.lights.get(start.light as usize);
         let at_light =
             sender.density(self.world, start.light as usize, start.n, start.ray.direction, &start.set);
         let flux = start.flux * (1.0 / sender.count as f32);
-        let is_delta = direct::is_delta(light);
+        let origin = Origin::new(self.world, &start, at_light);
         Some(Photon {
-            light,
             sender,
-            is_delta,
-            set: start.set.clone(),
+            origin,
+            set: start.set,
             ray: start.ray,
             flux,
             full: flux.max_lane(self.world.lanes),
             vertices: 0,
             bounces: 0,
             comes_straight: true,
-            others: if is_delta { 0.0 } else { (at_light * at_light).recip() },
-            at_light,
-            start,
+            leaves_beams,
+            is_indirect: false,
+            others: origin.hit(),
         })
     }
 
     fn follow(&self, mut photon: Photon<'_>, sampler: &mut Sampler, chunk: &mut Chunk) {
         loop {
-            let goes_on = match self.walk(&mut photon, sampler, &mut chunk.stats) {
+            let goes_on = match self.walk(&mut photon, sampler, chunk) {
                 Flown::Arrived(Event::Sky { .. }) => false,
                 Flown::Arrived(Event::Surface(vertex)) => {
                     self.at_surface(&mut photon, vertex, sampler, chunk)
@@ -110,12 +113,37 @@ impl Light<'_> {
         }
     }
 
-    fn walk(&self, photon: &mut Photon<'_>, sampler: &mut Sampler, stats: &mut Stats) -> Flown {
+    /// To the next vertex; where the photon leaves beams, they are kept.
+    fn walk(&self, photon: &mut Photon<'_>, sampler: &mut Sampler, chunk: &mut Chunk) -> Flown {
+        let straight_from = (photon.vertices == 0).then_some(photon.origin);
+        let counts = photon.lands() || straight_from.is_some() && !photon.sender.is_aimed;
+        let keeps_beams = photon.leaves_beams && counts;
+        let (others, bounces) = (photon.others, photon.bounces);
         let Photon { ray, set, flux, .. } = photon;
-        if self.world.has_volumes {
-            return walk::fly(self.world, ray, mask::PATH, set, *flux, sampler, stats).0;
+        let flux = *flux;
+        if !self.world.has_volumes {
+            return Flown::Arrived(walk::advance(self.world, ray, mask::PATH, set, &mut chunk.stats));
         }
-        Flown::Arrived(walk::advance(self.world, ray, mask::PATH, set, stats))
+        let (beams, stats) = (&mut chunk.beams, &mut chunk.stats);
+        let keep = |stretch: &Stretch<'_>| {
+            if !keeps_beams {
+                return;
+            }
+            let carried = flux * stretch.left;
+            let weight = BeamWeight::new(stretch.medium, carried, self.world.lanes);
+            beams.push(Beam {
+                origin: stretch.ray.origin,
+                direction: stretch.ray.direction,
+                length: weight.length(stretch.way, stretch.flown),
+                medium: stretch.id,
+                flux: carried * (1.0 / BEAM_SHARE),
+                weight,
+                straight_from,
+                others,
+                bounces,
+            });
+        };
+        walk::fly_watched(self.world, ray, mask::PATH, set, flux, sampler, stats, keep).0
     }
 
     /// Whether a photon may scatter once more where it is, other than as polished surfaces do, and still be counted at
@@ -137,7 +165,9 @@ impl Light<'_> {
         }
         photon.flux *= vertex.transmittance;
         if photon.lands() && !vertex.bsdf.is_delta() {
-            chunk.surface.push((vertex.hit.p, photon.landed(photon.flux)));
+            let points = &mut chunk.points;
+            let points = if photon.is_indirect { &mut points.indirect } else { &mut points.caustic };
+            points.push((vertex.hit.p, photon.landed(photon.flux)));
         }
         let wo = -photon.ray.direction;
         let (u_lobe, u): (f32, Vec2) = (sampler.next_1d(), sampler.next_2d());
@@ -156,6 +186,7 @@ impl Light<'_> {
                 return false;
             }
             self.pass(photon, &vertex, &scattered, ior_before);
+            photon.is_indirect |= !is_specular;
         }
         photon.comes_straight &= vertex.passes_straight(scattered.transmits);
         photon.flux *= scattered.weight;
@@ -172,10 +203,11 @@ impl Light<'_> {
         chunk: &mut Chunk,
     ) -> bool {
         photon.flux *= place.weight;
-        if photon.lands() {
-            chunk.volume.push((place.p, photon.landed(photon.flux)));
+        if photon.lands() && self.world.media[place.medium.index()].grid.is_some() {
+            chunk.points.volume.push((place.p, photon.landed(photon.flux)));
         }
         let is_first = photon.vertices == 0;
+        let is_beam = self.world.media[place.medium.index()].grid.is_none();
         let may_scatter = if is_first { !photon.sender.is_aimed } else { !photon.comes_straight };
         if !may_scatter || !self.may_bounce(photon) {
             return false;
@@ -184,10 +216,10 @@ impl Light<'_> {
         let phase = in_volume::phase_at(self.world, place);
         let wi = phase.sample(wo, sampler.next_2d());
         let pdf = phase.value(wo, wi);
-        let own = volume_factor(self.world, place, self.radius.in_volume(place.p)) / pdf;
-        let light = self.light_sampled(photon, place.p, wo, pdf, is_first);
-        photon.pass(light, own, 1.0);
-        photon.comes_straight = false;
+        let own = volume_factor(self.world, place, &self.radius, [wo, wi]) / pdf;
+        let merges = !is_first || is_beam;
+        photon.pass(self.world, place.p, pdf, if merges { own } else { 0.0 }, 1.0);
+        (photon.comes_straight, photon.is_indirect) = (false, true);
         photon.ray = Ray::new(place.p, wi);
         true
     }
@@ -199,58 +231,28 @@ impl Light<'_> {
         let toward_receiver =
             Side { pdf: scattered.pdf, ior: self.world.ior(photon.set.active()), cos: cos(scattered.wi) };
         let toward_light = Side { pdf: vertex.bsdf.pdf(scattered.wi, wo), ior: ior_before, cos: cos(wo) };
-        let radius = self.radius.on_surface(vertex.hit.p);
-        let own = weight::at_receiver(radius, toward_light.ior, toward_light.cos, toward_light.pdf);
-        let light = self.light_sampled(photon, vertex.hit.p, wo, toward_light.pdf, photon.vertices == 0);
-        photon.pass(light, own, weight::across(toward_receiver, toward_light));
-    }
-
-    /// What the vertex next to the light counts for that could have sampled it.
-    ///
-    /// - `wo`: back along the photon's way; `pdf`: density of that direction, drawn from the eye's side.
-    fn light_sampled(&self, photon: &Photon<'_>, p: Vec3, wo: Vec3, pdf: f32, is_first: bool) -> FirstVertex {
-        if !is_first {
-            return FirstVertex::Not;
-        }
-        let chance = self.world.lights.direct().probability(photon.start.light as usize);
-        if photon.is_delta {
-            // No path hits the light: sampling it stands where drawing its direction would.
-            let density = photon.at_light * per_cosine(photon.light, &photon.start, p);
-            return FirstVertex::Samples { ratio: chance / density, instead_of_pdf: pdf };
-        }
-        let direct = photon.light.pdf_direct(p, wo, light_hit(&photon.start).as_ref());
-        FirstVertex::Samples { ratio: chance * direct / (photon.at_light * pdf), instead_of_pdf: 1.0 }
+        let radius = self.radius.on_surface(vertex.hit.p) * if photon.is_indirect { INDIRECT } else { 1.0 };
+        let own = match photon.vertices {
+            0 => 0.0,
+            _ => weight::at_receiver(radius, toward_light.ior, toward_light.cos, toward_light.pdf),
+        };
+        let across = weight::across(toward_receiver, toward_light);
+        photon.pass(self.world, vertex.hit.p, toward_light.pdf, own, across);
     }
 }
 
 /// What one task collects.
 #[derive(Default)]
 struct Chunk {
-    surface: Vec<(Vec3, LandedPhoton)>,
-    volume: Vec<(Vec3, LandedPhoton)>,
+    points: Points,
+    beams: Vec<Beam>,
     stats: Stats,
-}
-
-/// What a vertex has to do with light sampling.
-enum FirstVertex {
-    /// Nothing: it is not next to the light.
-    Not,
-    /// It could have sampled the light.
-    Samples {
-        /// Density of that over that of hitting the light and the light's factor.
-        ratio: f32,
-        /// Factor on `across`, for lights that no path hits.
-        instead_of_pdf: f32,
-    },
 }
 
 /// A photon on its way.
 struct Photon<'a> {
-    light: &'a WorldLight,
     sender: &'a Sender<'a>,
-    start: PhotonStart,
-    /// Whether no path hits the light.
-    is_delta: bool,
+    origin: Origin,
     ray: Ray,
     set: MediumSet,
     flux: Spectrum,
@@ -262,9 +264,11 @@ struct Photon<'a> {
     bounces: u32,
     /// Whether all it has done was to cross surfaces with straight shadows.
     comes_straight: bool,
+    /// Whether its ways through homogeneous media are kept.
+    leaves_beams: bool,
+    /// Whether it has been scattered widely.
+    is_indirect: bool,
     others: f32,
-    /// The factor of the light.
-    at_light: f32,
 }
 
 impl Photon<'_> {
@@ -278,17 +282,19 @@ impl Photon<'_> {
         LandedPhoton { direction: self.ray.direction, flux, others: self.others, bounces: self.bounces }
     }
 
-    /// Accounts for a vertex that is not singular; `own` and `across` are its factors, see `weight`.
-    fn pass(&mut self, light: FirstVertex, own: f32, across: f32) {
-        let mut across = across;
-        match light {
-            FirstVertex::Not => self.others += own * own,
-            FirstVertex::Samples { ratio, instead_of_pdf } => {
-                self.others += ratio * ratio;
-                across *= instead_of_pdf;
-            }
-        }
-        self.others /= across * across;
+    /// Accounts for a vertex that is not singular.
+    ///
+    /// - `p`: where it is; `pdf`: density of the photon's way back, drawn from the eye's side.
+    /// - `own`, `across`: its factors, see `weight`; `own` is 0 where photons straight from the light are not merged.
+    fn pass(&mut self, world: &World, p: Vec3, pdf: f32, own: f32, across: f32) {
+        // No path hits a delta light: sampling it stands where drawing its direction would, and the density cancels.
+        let drawn = if self.vertices == 0 && self.origin.is_delta { 1.0 / pdf } else { 1.0 };
+        let sampled = match self.vertices {
+            0 => self.origin.sampled(world, p, -self.ray.direction) / (pdf * drawn),
+            _ => 0.0,
+        };
+        let (own, across) = (own / drawn, across / drawn);
+        self.others = (self.others + sampled * sampled + own * own) / (across * across);
         self.bounces += 1;
     }
 
@@ -302,20 +308,4 @@ impl Photon<'_> {
         self.flux *= 1.0 / survival;
         goes_on
     }
-}
-
-/// What stands for the cosine at a light that no path hits: the inverse square of the way to a point, 1 for parallel
-/// light.
-fn per_cosine(light: &WorldLight, start: &PhotonStart, p: Vec3) -> f32 {
-    match light {
-        WorldLight::Directional(_) => 1.0,
-        _ => 1.0 / start.origin.distance_squared(p),
-    }
-}
-
-/// The place on a light where a photon started, as a path would hit it.
-fn light_hit(start: &PhotonStart) -> Option<SurfaceHit> {
-    let n = start.n?;
-    let (p, p_error) = (start.origin, start.p_error);
-    Some(SurfaceHit { t: 0.0, p, p_error, ng: n, n, uv: Vec2::ZERO, item: 0, primitive: 0 })
 }

@@ -17,8 +17,10 @@
 //! Slusallek, Light transport simulation with vertex connection and merging, ACM TOG 31(6), 2012; Grittmann, Pérard-Gayot,
 //! Slusallek & Křivánek, Efficient caustic rendering with lightweight photon mapping, CGF 37(4), 2018.
 
+mod beams;
 mod landed;
 mod light;
+mod origin;
 mod sender;
 
 use super::eye::radius::GatherRadius;
@@ -30,7 +32,9 @@ use crate::stats::Stats;
 use hyaline_film::{PixelSample, Rect};
 use hyaline_world::World;
 use landed::Landed;
+pub(super) use landed::LandedPhoton;
 use light::Light;
+pub(super) use sender::BEAM_SHARE;
 use sender::Senders;
 use std::sync::atomic::AtomicBool;
 

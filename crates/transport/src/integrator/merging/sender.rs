@@ -17,6 +17,11 @@ use hyaline_world::light::DirectSample;
 /// Cells of the projection maps along each axis.
 const PROJECTION_CELLS: u32 = 64;
 
+/// One photon in so many leaves beams in homogeneous media; a beam is found by many more paths than a point.
+const PHOTONS_PER_BEAM: u32 = 64;
+/// Share of the photons that leave beams.
+pub(in crate::integrator) const BEAM_SHARE: f32 = 1.0 / PHOTONS_PER_BEAM as f32;
+
 /// One kind of photons.
 pub(in crate::integrator) struct Sender<'w> {
     pub(super) emitter: PhotonEmitter<'w>,
@@ -37,7 +42,11 @@ impl<'w> Senders<'w> {
         let pixels = view.width * view.height;
         let sender = |maps, share: u32, is_aimed| {
             let emitter = PhotonEmitter::new(world, maps, PROJECTION_CELLS);
-            let count = if emitter.fraction() > 0.0 { (share * pixels).clamp(1 << 12, 1 << 20) } else { 0 };
+            let count = if emitter.fraction() > 0.0 {
+                (share * pixels).clamp(1 << 12, 1 << 20).next_multiple_of(PHOTONS_PER_BEAM)
+            } else {
+                0
+            };
             Sender { emitter, count, is_aimed }
         };
         Self { aimed: sender(ProjectionMaps::Cells, 2, true), broad: sender(ProjectionMaps::None, 1, false) }
@@ -55,6 +64,11 @@ impl<'w> Senders<'w> {
 }
 
 impl Sender<'_> {
+    /// Photons of a pass that leave beams: the first ones, so that they are as even as all are.
+    pub(super) fn beams(&self) -> u32 {
+        self.count / PHOTONS_PER_BEAM
+    }
+
     /// The factor of a light.
     ///
     /// - `n`: outward normal of the light at the place; `None` without a surface.

@@ -1,0 +1,60 @@
+//! What a path gathers all along its way through a homogeneous medium: the beams that it passes.
+
+use super::merges::{Beyond, Merges};
+use super::weight;
+use crate::integrator::merging::{BEAM_SHARE, Photons};
+use crate::walk::Stretch;
+use hyaline_scattering::volume::BeamWeight;
+use hyaline_spectrum::Spectrum;
+use hyaline_world::World;
+
+/// Chance that a path which has bounced gathers beams on its way at all: what it finds there counts for less, and costs as
+/// much.
+pub(super) const CHANCE_AFTER_BOUNCES: f32 = 0.25;
+
+/// A path on its way, for the beams that it passes.
+pub(super) struct Along<'a> {
+    pub(super) photons: &'a Photons<'a>,
+    pub(super) world: &'a World,
+    /// What the path carries at the start of its way.
+    pub(super) throughput: Spectrum,
+    pub(super) merges: Merges,
+    /// Bounces that merged photons may have made, and one more.
+    pub(super) bounces_left: u32,
+}
+
+impl Along<'_> {
+    /// Light of the beams about a stretch, as it arrives where the path's way starts.
+    pub(super) fn gather(&self, stretch: &Stretch<'_>) -> Spectrum {
+        let Stretch { medium, id, ray, way, flown, left } = stretch;
+        let own_weight = BeamWeight::new(medium, self.throughput * *left, self.world.lanes);
+        let sigma = medium.sigma_t().mean(self.world.lanes);
+        let behind = self.merges.behind(Beyond::Wide);
+        let mut sum = Spectrum::ZERO;
+        self.photons.landed.beams(ray, own_weight.length(*way, *flown), *id, |beam, passing| {
+            if beam.bounces >= self.bounces_left {
+                return;
+            }
+            let phase = medium.phase.value(-ray.direction, -beam.direction);
+            let own = weight::of_beam(BEAM_SHARE, passing.radius, passing.sin, medium.ior, sigma);
+            let squares = beam.straight_from.map_or_else(
+                || (beam.others + behind) * (phase / own) * (phase / own),
+                |origin| {
+                    // No path hits a delta light: sampling it stands where drawing its direction would.
+                    let pdf = if origin.is_delta { 1.0 } else { phase };
+                    let sampled = origin.sampled(self.world, ray.at(passing.on_ray), -beam.direction) / pdf;
+                    let across = phase / pdf;
+                    let others = beam.others + sampled * sampled + behind * across * across;
+                    others * (pdf / own) * (pdf / own)
+                },
+            );
+            let weight = weight::power(squares);
+            let kernel = 1.0 / (2.0 * passing.radius * passing.sin);
+            sum += own_weight.at(passing.on_ray)
+                * beam.weight.at(passing.on_beam)
+                * beam.flux
+                * (phase * weight * kernel);
+        });
+        sum * medium.sigma_s * *left
+    }
+}
