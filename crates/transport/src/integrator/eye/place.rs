@@ -9,8 +9,8 @@ use crate::integrator::merging::{BEAM_SHARE, Photons};
 use crate::walk::VolumeVertex;
 use hyaline_math::{Ray, Vec3};
 use hyaline_spectrum::Spectrum;
-use hyaline_world::World;
 use hyaline_world::light::{DirectSample, LightChoice};
+use hyaline_world::{World, mask};
 use std::f32::consts::PI;
 
 impl Eye<'_> {
@@ -18,6 +18,9 @@ impl Eye<'_> {
     pub(super) fn at_place(&self, path: &mut Path, place: &VolumeVertex, draws: &mut Draws<'_>) -> bool {
         let wo = -path.ray.direction;
         path.throughput *= place.weight;
+        if !self.part_survives(path, draws) {
+            return false;
+        }
         if self.may_bounce(path) {
             if let Some(photons) = &self.photons
                 && self.world.media[place.medium.index()].grid.is_some()
@@ -39,6 +42,7 @@ impl Eye<'_> {
             path.merges.pass(&Passed { place, own, across: 1.0, is_specular: false });
         }
         path.ray = Ray { time: path.ray.time, ..Ray::new(place.p, wi) };
+        path.visible = mask::PATH;
         self.survives(path, draws)
     }
 

@@ -12,40 +12,59 @@ use hyaline_math::Vec3;
 use hyaline_scattering::{BsdfSample, MediumSet, Transport};
 use hyaline_spectrum::Spectrum;
 use hyaline_world::light::{DirectSample, LightChoice};
+use hyaline_world::mask;
 use std::f32::consts::PI;
 
 impl Eye<'_> {
     /// Gathers, samples a light and scatters; returns whether the path goes on.
-    pub(super) fn at_surface(&self, path: &mut Path, vertex: &Vertex, draws: &mut Draws<'_>) -> bool {
+    ///
+    /// - `waiting`: receives a part of the path, where it is split.
+    pub(super) fn at_surface(
+        &self,
+        path: &mut Path,
+        vertex: &Vertex,
+        waiting: &mut Vec<Path>,
+        draws: &mut Draws<'_>,
+    ) -> bool {
         let wo = -path.ray.direction;
-        if !vertex.bsdf.is_delta() && self.may_bounce(path) {
+        let is_delta = vertex.bsdf.is_delta();
+        if !is_delta && !self.part_survives(path, draws) {
+            return false;
+        }
+        if !is_delta && self.may_bounce(path) {
             if let Some(photons) = &self.photons {
                 path.light += path.throughput * self.gather(path, vertex, wo, photons);
             }
             path.light += path.throughput * self.sampled_light(path, vertex, wo, draws);
         }
         let (u_lobe, u) = (draws.sampler.next_1d(), draws.sampler.next_2d());
-        let Some(scattered) = vertex.bsdf.sample(wo, u_lobe, u, Transport::Radiance) else { return false };
+        let scattered = self
+            .split(path, vertex, wo, waiting)
+            .or_else(|| vertex.bsdf.sample(wo, u_lobe, u, Transport::Radiance));
+        let Some(scattered) = scattered else { return false };
+        self.turn(path, vertex, &scattered);
+        !path.throughput.is_zero() && self.survives(path, draws)
+    }
+
+    /// Sends the path on in a direction, and keeps all true that weights go by.
+    pub(super) fn turn(&self, path: &mut Path, vertex: &Vertex, scattered: &BsdfSample) {
         path.throughput *= scattered.weight;
         path.index_scale *= scattered.eta_scale;
-        if path.throughput.is_zero() {
-            return false;
-        }
         let ior_before = self.world.ior(path.set.active());
         if scattered.transmits {
             vertex.commit(self.world, &mut path.set);
         }
-        path.last.record(vertex, &scattered);
+        path.last.record(vertex, scattered);
         if scattered.is_delta {
             path.crossings += 1;
             path.merges.pass_singular();
         } else {
             path.bounces += 1;
             path.crossings = 0;
-            self.note_merge(path, vertex, &scattered, ior_before);
+            self.note_merge(path, vertex, scattered, ior_before);
         }
         path.ray = vertex.leave(scattered.wi, path.ray.time);
-        self.survives(path, draws)
+        path.visible = mask::PATH;
     }
 
     /// Keeps the sum over merges true where a direction has been drawn from a lobe that is not singular.
