@@ -25,7 +25,8 @@ impl Eye<'_> {
             {
                 path.light += path.throughput * self.gather(path, vertex, wo, photons, radius);
             }
-            path.light += path.throughput * self.sampled_light(path, vertex, wo, is_wide, draws);
+            path.light +=
+                path.throughput * self.sampled_light(path, vertex, wo, is_wide, draws);
         }
         let (u_lobe, u) = (draws.sampler.next_1d(), draws.sampler.next_2d());
         let Some(scattered) = vertex.bsdf.sample(wo, u_lobe, u, Transport::Radiance) else { return false };
@@ -56,20 +57,28 @@ impl Eye<'_> {
     fn gather(&self, path: &Path, vertex: &Vertex, wo: Vec3, photons: &Photons<'_>, radius: f32) -> Spectrum {
         let hit = &vertex.hit;
         let own = weight::at_receiver(photons.landed.sent, radius, 1.0, 1.0, 1.0);
-        let ior = self.world.ior(path.set.active());
+        // Density of hitting over that of merging, but for density and cosine of the direction.
+        let hitting_over_merging = |set: &MediumSet| {
+            let ior = self.world.ior(set.active());
+            1.0 / (own * ior * ior)
+        };
+        let near_side = hitting_over_merging(&path.set);
+        let far_side = || hitting_over_merging(&vertex.far_set(self.world, &path.set));
         let sum = photons.landed.surface(hit.p, radius, |photon| {
             let wi = -photon.direction;
             let cos = wi.dot(hit.ng).abs();
-            let f = vertex.bsdf.eval(wo, wi, Transport::Radiance);
+            let (f, pdf) = vertex.bsdf.eval_with_pdf(wo, wi, Transport::Radiance);
             if f.is_zero() || cos == 0.0 {
                 return Spectrum::ZERO;
             }
-            let ior = match crosses(vertex, wo, wi) {
-                true => self.world.ior(vertex.far_set(self.world, &path.set).active()),
-                false => ior,
+            let hitting = match crosses(vertex, wo, wi) {
+                true => far_side(),
+                false => near_side,
             };
-            let ratio = own * ior * ior * cos / vertex.bsdf.pdf(wo, wi);
-            f * photon.flux * (weight::power(photon.others / (ratio * ratio)) / cos)
+            // Two divisions a photon, neither of which waits for the other.
+            let per_cos = 1.0 / cos;
+            let ratio = pdf * per_cos * hitting;
+            f * photon.flux * (weight::power(photon.others * (ratio * ratio)) * per_cos)
         });
         sum * (1.0 / (PI * radius * radius))
     }
@@ -88,14 +97,15 @@ impl Eye<'_> {
         let Some(sample) = self.world.lights.get(choice.index).sample_direct(vertex.hit.p, u) else {
             return Spectrum::ZERO;
         };
-        let contribution = vertex.bsdf.eval(wo, sample.wi, Transport::Radiance) * sample.radiance;
+        let (f, pdf) = vertex.bsdf.eval_with_pdf(wo, sample.wi, Transport::Radiance);
+        let contribution = f * sample.radiance;
         if contribution.is_zero() {
             return contribution;
         }
         let far = crosses(vertex, wo, sample.wi).then(|| vertex.far_set(self.world, &path.set));
         let set = far.as_ref().unwrap_or(&path.set);
         let density = sample.pdf_w * choice.probability;
-        let hitting = if sample.is_delta { 0.0 } else { vertex.bsdf.pdf(wo, sample.wi) / density };
+        let hitting = if sample.is_delta { 0.0 } else { pdf / density };
         let merging = if is_wide { 0.0 } else { self.merging_of(path, vertex, wo, &choice, &sample, set) };
         let weight = weight::power(hitting * hitting + merging * merging);
         let ray = shadow::ray_to_light(&vertex.hit, &sample, 0.0);
