@@ -82,21 +82,19 @@ impl Eye<'_> {
     ) -> Spectrum {
         let mut path = self.start(ray, set);
         loop {
-            let event = match self.walk(&mut path, draws) {
-                Flown::Arrived(event) => event,
+            let mut flown = self.walk(&mut path, draws);
+            let vertex = match &mut flown {
+                Flown::Arrived(Event::Surface(vertex)) => vertex,
+                Flown::Arrived(Event::Sky { transmittance }) => {
+                    return path.light + path.throughput * *transmittance * self.sky(&path);
+                }
                 Flown::Scattered(place) => {
                     first = None;
-                    match self.at_place(&mut path, &place, draws) {
+                    match self.at_place(&mut path, place, draws) {
                         true => continue,
                         false => return path.light,
                     }
                 }
-            };
-            let mut vertex = match event {
-                Event::Sky { transmittance } => {
-                    return path.light + path.throughput * transmittance * self.sky(&path);
-                }
-                Event::Surface(vertex) => vertex,
             };
             if path.crossings > PATIENCE_WITH_SHADING_NORMALS {
                 vertex.bsdf = vertex.bsdf.without_shading_normal();
@@ -104,10 +102,10 @@ impl Eye<'_> {
             path.throughput *= vertex.transmittance;
             path.footprint.travel(vertex.distance);
             if let Some(sample) = first.take() {
-                first_hit::record(sample, &vertex, &path.ray);
+                first_hit::record(sample, vertex, &path.ray);
             }
-            path.light += path.throughput * self.emitted(&path, &vertex);
-            if !self.at_surface(&mut path, &vertex, draws) {
+            path.light += path.throughput * self.emitted(&path, vertex);
+            if !self.at_surface(&mut path, vertex, draws) {
                 return path.light;
             }
         }
@@ -133,7 +131,7 @@ impl Eye<'_> {
     fn walk(&self, path: &mut Path, draws: &mut Draws<'_>) -> Flown {
         let Path { ray, set, visible, throughput, .. } = path;
         if !self.world.has_volumes {
-            return Flown::Arrived(walk::advance(self.world, ray, *visible, set, draws.stats));
+            return walk::advance_flown(self.world, ray, *visible, set, draws.stats);
         }
         let (flown, emitted) =
             walk::fly(self.world, ray, *visible, set, *throughput, draws.sampler, draws.stats);
