@@ -10,15 +10,17 @@ use hyaline_spectrum::Spectrum;
 use hyaline_world::World;
 
 /// Light of one light, chosen at random, that the medium sends back along the path: an estimate of the sum over all
-/// lights, to be shared with directions drawn from the phase function.
+/// lights, to be shared with directions that the path goes on in.
 ///
 /// - `wo`: unit, back along the path.
 /// - `set`: what the place is in.
+/// - `going_there`: density with which the path goes on in a direction, sr⁻¹, given the phase function's value.
 pub fn sample_one_light(
     world: &World,
     vertex: &VolumeVertex,
     wo: Vec3,
     set: &MediumSet,
+    going_there: impl Fn(Vec3, f32) -> f32,
     sampler: &mut Sampler,
     stats: &mut Stats,
 ) -> Spectrum {
@@ -33,7 +35,7 @@ pub fn sample_one_light(
     }
     let weight = match sample.is_delta {
         true => 1.0,
-        false => mis::power(sample.pdf_w * choice.probability, phase),
+        false => mis::power(sample.pdf_w * choice.probability, going_there(sample.wi, phase)),
     };
     let ray = shadow::ray_from(vertex.p, &sample, 0.0);
     let way = shadow::straight_way(world, &ray, set, stats);

@@ -1,10 +1,12 @@
-//! Path tracing: one path per pixel and pass, light sampling and BSDF sampling combined by MIS; see `eye` for the steps.
+//! Path tracing: one path per pixel and pass, light sampling, BSDF sampling and aim combined by MIS; see `eye` for the
+//! steps.
 
+use super::eye::aim::Aim;
 use super::eye::{Draws, Eye};
-use super::per_pixel::PerPixel;
-use super::{Integrator, Prepared, RenderSettings, View};
+use super::per_pixel::CameraRays;
+use super::{Integrator, Pass, Prepared, RenderSettings, View};
 use crate::stats::Stats;
-use hyaline_film::PixelSample;
+use hyaline_film::{PixelSample, Rect};
 use hyaline_math::Ray;
 use hyaline_sampling::Sampler;
 use hyaline_scattering::MediumSet;
@@ -12,6 +14,9 @@ use hyaline_spectrum::Spectrum;
 use hyaline_world::World;
 use hyaline_world::camera::PixelSpread;
 use std::sync::atomic::AtomicBool;
+
+/// Only gathering asks for the size of a pixel.
+const NO_SPREAD: PixelSpread = PixelSpread { width: 0.0, angle: 0.0 };
 
 /// Unidirectional path tracing with light sampling.
 pub struct PathIntegrator;
@@ -29,11 +34,41 @@ impl Integrator for PathIntegrator {
         _cancel: &AtomicBool,
         _stats: &mut Stats,
     ) -> Box<dyn Prepared + 'w> {
-        Box::new(PerPixel { world, view: *view, settings: *settings, estimate: radiance })
+        Box::new(Paths { world, view: *view, settings: *settings, aim: Aim::new(world) })
     }
 }
 
-/// One estimate of the radiance that arrives along `ray`, which starts inside `set`.
+/// What all passes share.
+struct Paths<'w> {
+    world: &'w World,
+    view: View,
+    settings: RenderSettings,
+    aim: Aim,
+}
+
+impl Prepared for Paths<'_> {
+    fn begin_pass<'a>(&'a self, pass: u32, _stats: &mut Stats) -> Box<dyn Pass + 'a> {
+        Box::new(PathPass { paths: self, pass })
+    }
+}
+
+struct PathPass<'a> {
+    paths: &'a Paths<'a>,
+    pass: u32,
+}
+
+impl Pass for PathPass<'_> {
+    fn render_tile(&self, tile: Rect, samples: &mut [PixelSample], stats: &mut Stats) {
+        let Paths { world, view, settings, aim } = self.paths;
+        let camera = CameraRays { world, view, settings, pass: self.pass };
+        let eye = Eye { world, settings, spread: NO_SPREAD, aim: Some(aim), photons: None };
+        camera.render_tile(tile, samples, |ray, set, sampler, sample| {
+            eye.radiance(ray, set, &mut Draws { sampler, stats }, Some(sample))
+        });
+    }
+}
+
+/// One estimate of the radiance that arrives along `ray`, which starts inside `set`; without aim.
 ///
 /// - `first`: receives what the first surface looks like.
 pub fn radiance(
@@ -45,8 +80,6 @@ pub fn radiance(
     stats: &mut Stats,
     first: Option<&mut PixelSample>,
 ) -> Spectrum {
-    // Only gathering asks for the size of a pixel.
-    let spread = PixelSpread { width: 0.0, angle: 0.0 };
-    let eye = Eye { world, settings, spread, photons: None };
+    let eye = Eye { world, settings, spread: NO_SPREAD, aim: None, photons: None };
     eye.radiance(ray, set, &mut Draws { sampler, stats }, first)
 }

@@ -4,10 +4,11 @@
 //!    medium the path is in.
 //! 2. If the surface shines, add its light, weighed against the other ways to find it.
 //! 3. If the vertex is not polished, gather the photons about it, sample a light, and add what reaches the vertex.
-//! 4. Go on in a direction drawn from the BSDF or phase function. Singular crossings are free: there is no limit on
+//! 4. Go on in a direction drawn from the BSDF or phase function, or aimed (`aim`). Singular crossings are free: there is no limit on
 //!    them.
 //! 5. Weak paths end by roulette on their throughput without the n² factor, so none dies for being inside glass.
 
+pub(super) mod aim;
 mod footprint;
 mod hit;
 mod place;
@@ -19,9 +20,10 @@ use crate::direct::LastScatter;
 use crate::first_hit;
 use crate::integrator::RenderSettings;
 use crate::integrator::merging::Photons;
-use crate::roulette::{PATIENCE_WITH_SHADING_NORMALS, eye_survival};
+use crate::roulette::{PATIENCE_WITH_SHADING_NORMALS, eye_survival, lone_eye_survival};
 use crate::stats::Stats;
 use crate::walk::{self, Event, Flown};
+use aim::Aim;
 use footprint::Footprint;
 use hyaline_film::PixelSample;
 use hyaline_math::Ray;
@@ -38,6 +40,8 @@ pub(super) struct Eye<'a> {
     pub(super) settings: &'a RenderSettings,
     /// Size of a pixel in the scene.
     pub(super) spread: PixelSpread,
+    /// Where to look for caustics; `None` where photons bring them.
+    pub(super) aim: Option<&'a Aim>,
     /// Photons to gather.
     pub(super) photons: Option<Photons<'a>>,
 }
@@ -149,7 +153,8 @@ impl Eye<'_> {
         path.visible = mask::PATH;
         let roulette = draws.sampler.next_1d();
         let weight = path.throughput.max_lane(self.world.lanes) / path.index_scale;
-        let survival = eye_survival(weight, path.bounces, path.crossings);
+        let survival_of = if self.photons.is_some() { eye_survival } else { lone_eye_survival };
+        let survival = survival_of(weight, path.bounces, path.crossings);
         if self.settings.max_depth.is_some_and(|limit| path.bounces > limit) || roulette >= survival {
             return false;
         }

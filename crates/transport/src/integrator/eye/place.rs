@@ -1,5 +1,6 @@
 //! What a path does at a particle of a medium.
 
+use super::aim::Choice;
 use super::receiver::Receiver;
 use super::{Draws, Eye, Path, weight};
 use crate::direct::LastScatter;
@@ -18,17 +19,35 @@ impl Eye<'_> {
         path.footprint.travel(place.distance);
         let shrink = self.photons.as_ref().map_or(0.0, |photons| photons.shrink.volume);
         let radius = path.footprint.radius() * shrink;
+        let aim = self.aim.and_then(|aim| aim.from_place(place.p));
         if self.may_bounce(path) {
             if let Some(photons) = &self.photons {
                 path.light += path.throughput * self.gather_in_volume(place, wo, photons, radius);
             }
-            let light =
-                in_volume::sample_one_light(self.world, place, wo, &path.set, draws.sampler, draws.stats);
+            let going_there = |wi, phase| aim.as_ref().map_or(phase, |cones| cones.density(phase, wi));
+            let light = in_volume::sample_one_light(
+                self.world,
+                place,
+                wo,
+                &path.set,
+                going_there,
+                draws.sampler,
+                draws.stats,
+            );
             path.light += path.throughput * light;
         }
         let phase = in_volume::phase_at(self.world, place);
-        let wi = phase.sample(wo, draws.sampler.next_2d());
-        let pdf = phase.value(wo, wi);
+        let u = draws.sampler.next_2d();
+        let choice = aim.as_ref().map(|cones| cones.choose(draws.sampler.next_1d(), u));
+        let wi = match choice {
+            Some(Choice::Aimed(wi)) => wi,
+            Some(Choice::Free(_)) | None => phase.sample(wo, u),
+        };
+        let value = phase.value(wo, wi);
+        let pdf = aim.as_ref().map_or(value, |cones| cones.density(value, wi));
+        if aim.is_some() {
+            path.throughput *= value / pdf;
+        }
         path.bounces += 1;
         path.crossings = 0;
         path.last = LastScatter { sampled: Some((place.p, pdf)), is_covered: false };

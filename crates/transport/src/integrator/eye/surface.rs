@@ -1,5 +1,6 @@
 //! What a path does at a surface.
 
+use super::aim::Cones;
 use super::weight::{self, SideOfChain};
 use super::{Draws, Eye, Path};
 use crate::integrator::merging::{Photons, emission_density};
@@ -19,6 +20,7 @@ impl Eye<'_> {
         let is_wide = !is_specular(&vertex.bsdf);
         let shrink = self.photons.as_ref().map_or(0.0, |photons| photons.shrink.surface);
         let radius = path.footprint.radius() * shrink;
+        let aim = self.aim.filter(|_| is_wide).and_then(|aim| aim.from_surface(vertex, wo));
         if !vertex.bsdf.is_delta() && self.may_bounce(path) {
             if let Some(photons) = &self.photons
                 && (is_wide || path.receiver.is_none())
@@ -26,10 +28,14 @@ impl Eye<'_> {
                 path.light += path.throughput * self.gather(path, vertex, wo, photons, radius);
             }
             path.light +=
-                path.throughput * self.sampled_light(path, vertex, wo, is_wide, draws);
+                path.throughput * self.sampled_light(path, vertex, wo, is_wide, aim.as_ref(), draws);
         }
         let (u_lobe, u) = (draws.sampler.next_1d(), draws.sampler.next_2d());
-        let Some(scattered) = vertex.bsdf.sample(wo, u_lobe, u, Transport::Radiance) else { return false };
+        let scattered = match &aim {
+            Some(cones) => cones.scatter(vertex, wo, u_lobe, u),
+            None => vertex.bsdf.sample(wo, u_lobe, u, Transport::Radiance),
+        };
+        let Some(scattered) = scattered else { return false };
         path.throughput *= scattered.weight;
         path.index_scale *= scattered.eta_scale;
         if path.throughput.is_zero() {
@@ -90,6 +96,7 @@ impl Eye<'_> {
         vertex: &Vertex,
         wo: Vec3,
         is_wide: bool,
+        aim: Option<&Cones>,
         draws: &mut Draws<'_>,
     ) -> Spectrum {
         let (u_choice, u) = (draws.sampler.next_1d(), draws.sampler.next_2d());
@@ -105,6 +112,7 @@ impl Eye<'_> {
         let far = crosses(vertex, wo, sample.wi).then(|| vertex.far_set(self.world, &path.set));
         let set = far.as_ref().unwrap_or(&path.set);
         let density = sample.pdf_w * choice.probability;
+        let pdf = aim.map_or(pdf, |cones| cones.density(pdf, sample.wi));
         let hitting = if sample.is_delta { 0.0 } else { pdf / density };
         let merging = if is_wide { 0.0 } else { self.merging_of(path, vertex, wo, &choice, &sample, set) };
         let weight = weight::power(hitting * hitting + merging * merging);

@@ -93,7 +93,7 @@ impl Pass for MergingPass<'_> {
         let camera = CameraRays { world, view, settings, pass: self.pass };
         let photons =
             (*photons > 0).then_some(Photons { emitter, landed: &self.landed, shrink: self.shrink });
-        let eye = Eye { world, settings, spread, photons };
+        let eye = Eye { world, settings, spread, aim: None, photons };
         camera.render_tile(tile, samples, |ray, set, sampler, sample| {
             eye.radiance(ray, set, &mut Draws { sampler, stats }, Some(sample))
         });
