@@ -34,6 +34,9 @@ use hyaline_world::camera::PixelSpread;
 use hyaline_world::{World, mask};
 use receiver::Receiver;
 
+/// Scatterings of a path that are aimed, at most.
+const AIMED_BOUNCES: u32 = 2;
+
 /// What paths have in common.
 pub(super) struct Eye<'a> {
     pub(super) world: &'a World,
@@ -141,6 +144,11 @@ impl Eye<'_> {
             walk::fly(self.world, ray, *visible, set, *throughput, draws.sampler, draws.stats);
         path.light += path.throughput * emitted;
         flown
+    }
+
+    /// What the path aims at. Each aimed choice may double its weight, so that only the first ones do.
+    fn aim_of(&self, path: &Path) -> Option<&Aim> {
+        self.aim.filter(|_| path.bounces < AIMED_BOUNCES)
     }
 
     /// Whether the path may scatter once more and still be counted.

@@ -19,7 +19,7 @@ impl Eye<'_> {
         path.footprint.travel(place.distance);
         let shrink = self.photons.as_ref().map_or(0.0, |photons| photons.shrink.volume);
         let radius = path.footprint.radius() * shrink;
-        let aim = self.aim.and_then(|aim| aim.from_place(place.p));
+        let aim = self.aim_of(path).and_then(|aim| aim.from_place(place.p));
         if self.may_bounce(path) {
             if let Some(photons) = &self.photons {
                 path.light += path.throughput * self.gather_in_volume(place, wo, photons, radius);

@@ -20,7 +20,7 @@ impl Eye<'_> {
         let is_wide = !is_specular(&vertex.bsdf);
         let shrink = self.photons.as_ref().map_or(0.0, |photons| photons.shrink.surface);
         let radius = path.footprint.radius() * shrink;
-        let aim = self.aim.filter(|_| is_wide).and_then(|aim| aim.from_surface(vertex, wo));
+        let aim = self.aim_of(path).filter(|_| is_wide).and_then(|aim| aim.from_surface(vertex, wo));
         if !vertex.bsdf.is_delta() && self.may_bounce(path) {
             if let Some(photons) = &self.photons
                 && (is_wide || path.receiver.is_none())
