@@ -1,5 +1,7 @@
-//! Chores of the workspace: `cargo xtask tidy`, `cargo xtask conformance`.
+//! Chores of the workspace: `cargo xtask tidy`, `cargo xtask conformance`, `cargo xtask bench`.
 
+mod bench;
+mod binary;
 mod conformance;
 mod tidy;
 mod workspace;
@@ -22,12 +24,15 @@ enum Chore {
     Tidy,
     /// Render folders of scenes and compare with their references
     Conformance(conformance::Arguments),
+    /// Time whole renders, alone or in turn with another binary
+    Bench(bench::Arguments),
 }
 
 fn main() -> ExitCode {
     let result = match Cli::parse().chore {
         Chore::Tidy => tidy::run(),
         Chore::Conformance(arguments) => conformance::run(&arguments),
+        Chore::Bench(arguments) => bench::run(&arguments),
     };
     match result {
         Ok(()) => ExitCode::SUCCESS,

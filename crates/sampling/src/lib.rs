@@ -16,4 +16,4 @@ pub use distribution::{Distribution1d, DistributionError, Pick};
 pub use distribution2d::{Distribution2d, Pick2d};
 pub use rng::Rng;
 pub use sampler::{Sampler, SamplerKind};
-pub use spherical_rectangle::SphericalRectangle;
+pub use spherical_rectangle::{RectangleFrame, SphericalRectangle};

@@ -11,10 +11,11 @@ use hyaline_world::World;
 use hyaline_world::light::{DirectSample, LightChoice};
 
 /// Light of one light, chosen at random, that the medium sends back along the path: an estimate of the sum over all
-/// lights, to be shared with directions drawn from the phase function.
+/// lights, to be shared with directions that the path goes on in.
 ///
 /// - `wo`: unit, back along the path.
 /// - `set`: what the place is in.
+/// - `going_there`: density with which the path goes on in a direction, sr⁻¹, given the phase function's value.
 /// - `others`: squared densities of further ways to find the light over that of sampling it, for a sample and the value
 ///   of the phase function.
 pub fn sample_one_light(
@@ -22,6 +23,7 @@ pub fn sample_one_light(
     vertex: &VolumeVertex,
     wo: Vec3,
     set: &MediumSet,
+    going_there: impl FnOnce(Vec3, f32) -> f32,
     others: impl FnOnce(&LightChoice, &DirectSample, f32) -> f32,
     sampler: &mut Sampler,
     stats: &mut Stats,
@@ -36,7 +38,7 @@ pub fn sample_one_light(
         return Spectrum::ZERO;
     }
     let density = sample.pdf_w * choice.probability;
-    let hitting = if sample.is_delta { 0.0 } else { phase / density };
+    let hitting = if sample.is_delta { 0.0 } else { going_there(sample.wi, phase) / density };
     let weight = 1.0 / (1.0 + hitting * hitting + others(&choice, &sample, phase));
     let ray = shadow::ray_from(vertex.p, &sample, 0.0);
     let way = shadow::straight_way(world, &ray, set, stats);

@@ -4,6 +4,9 @@
 /// Bounces after which roulette may end a path of the eye; shorter ones carry most of the picture.
 const FIRST_ROULETTE_BOUNCE: u32 = 3;
 
+/// The same where no photons bring the caustics: then longer paths carry much of them.
+const FIRST_LONE_ROULETTE_BOUNCE: u32 = 5;
+
 /// Bounces after which roulette ends even paths that lose nothing: in a closed white room they would go on for ever.
 const PATIENCE_WITH_BOUNCES: u32 = 128;
 
@@ -29,6 +32,15 @@ pub(crate) fn survival(weight: f32, bounces: u32, crossings: u32) -> f32 {
 
 /// The same for a path of the eye, whose first bounces are spared.
 pub(crate) fn eye_survival(weight: f32, bounces: u32, crossings: u32) -> f32 {
-    let is_spared = bounces < FIRST_ROULETTE_BOUNCE && weight > 1e-3;
+    spared(FIRST_ROULETTE_BOUNCE, weight, bounces, crossings)
+}
+
+/// The same for a path that has to find caustics by itself, as there are no photons.
+pub(crate) fn lone_eye_survival(weight: f32, bounces: u32, crossings: u32) -> f32 {
+    spared(FIRST_LONE_ROULETTE_BOUNCE, weight, bounces, crossings)
+}
+
+fn spared(first_roulette: u32, weight: f32, bounces: u32, crossings: u32) -> f32 {
+    let is_spared = bounces < first_roulette && weight > 1e-3;
     if is_spared && crossings <= PATIENCE_WITH_CROSSINGS { 1.0 } else { survival(weight, bounces, crossings) }
 }

@@ -120,6 +120,17 @@ pub fn advance(world: &World, ray: &Ray, visible: u8, set: &mut MediumSet, stats
     }
 }
 
+/// `advance`, for callers that fly elsewhere: the answer stays in its place, as vertices are large.
+pub(crate) fn advance_flown(
+    world: &World,
+    ray: &Ray,
+    visible: u8,
+    set: &mut MediumSet,
+    stats: &mut Stats,
+) -> Flown {
+    walk(world, ray, visible, set, &mut Dimmed, stats)
+}
+
 /// Walks along `ray` to the next surface that does something or to the next place where a medium scatters the path.
 ///
 /// - `throughput`: what the path carries; lanes that carry much decide where it scatters.

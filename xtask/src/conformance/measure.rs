@@ -2,6 +2,7 @@
 
 use super::folder::Scene;
 use super::tiles::{Noise, Tiles};
+use crate::binary::last_json;
 use hyaline_film::{Film, develop, variance_of_mean};
 use serde_json::Value;
 use std::path::{Path, PathBuf};
@@ -137,17 +138,4 @@ fn remove(path: &Path) -> Result<(), String> {
         }
         _ => Ok(()),
     }
-}
-
-/// Runs a command; returns the last line on its stdout as JSON, or the first error on its stderr as an error.
-fn last_json(command: &mut Command) -> Result<Value, String> {
-    let output = command.output().map_err(|error| error.to_string())?;
-    if !output.status.success() {
-        let messages = String::from_utf8_lossy(&output.stderr);
-        let error = messages.lines().find(|line| line.starts_with("error")).unwrap_or("no message");
-        return Err(format!("{} ({error})", output.status));
-    }
-    let results = String::from_utf8_lossy(&output.stdout);
-    let line = results.lines().last().unwrap_or_default();
-    serde_json::from_str(line).map_err(|error| format!("not JSON: {line} ({error})"))
 }

@@ -4,16 +4,15 @@
 //! test needs them. Scenes without a reference are rendered and listed all the same; one that fails is a row with its
 //! error.
 
-mod folder;
+pub(crate) mod folder;
 mod measure;
 mod table;
 mod tiles;
 
-use crate::workspace;
+use crate::{binary, workspace};
 use clap::Args;
 use measure::{Length, Renderer};
 use std::path::{Path, PathBuf};
-use std::process::Command;
 use table::Row;
 
 /// Samples per pixel where nothing is said.
@@ -105,7 +104,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), String> {
     if scenes.is_empty() {
         return Err(format!("{}: no scene (.xml, .toml) in it or below", folder.display()));
     }
-    let binary = build(&root)?;
+    let binary = binary::build(&root)?;
     let output = arguments.out.clone().unwrap_or_else(|| root.join("target/conformance"));
     std::fs::create_dir_all(&output).map_err(|e| format!("{}: {e}", output.display()))?;
 
@@ -122,22 +121,6 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), String> {
     write(&output.join("conformance.md"), &text)?;
     write(&output.join("conformance.json"), &table::json(&arguments.summary(), &rows))?;
     verdict(arguments.strict, &rows)
-}
-
-/// Builds the release binary; returns its path.
-fn build(root: &Path) -> Result<PathBuf, String> {
-    let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
-    let status = Command::new(cargo)
-        .args(["build", "--release", "--quiet", "--package", "hyaline"])
-        .current_dir(root)
-        .status()
-        .map_err(|error| format!("cargo build: {error}"))?;
-    let target = std::env::var_os("CARGO_TARGET_DIR").map_or_else(|| root.join("target"), PathBuf::from);
-    if status.success() {
-        Ok(target.join("release/hyaline"))
-    } else {
-        Err("the release binary does not build".into())
-    }
 }
 
 fn write(path: &Path, text: &str) -> Result<(), String> {

@@ -73,6 +73,8 @@ impl Mesh {
         if data.triangles.is_empty() {
             return Err(MeshError::NoFaceHasAnArea { face_count });
         }
+        // Made unit here rather than at every hit.
+        data.normals.iter_mut().flatten().for_each(|n| *n = n.normalize_or_zero());
         let used = data.triangles.iter().flatten().map(|&i| data.positions[i as usize]);
         let bounds = Bounds::from_points(used);
         let dropped_faces = face_count - data.triangles.len();
@@ -84,7 +86,7 @@ impl Mesh {
         &self.data.positions
     }
 
-    /// Vertex normals as given.
+    /// Vertex normals: unit, or 0 where none was given that is.
     pub fn normals(&self) -> Option<&[Vec3]> {
         self.data.normals.as_deref()
     }

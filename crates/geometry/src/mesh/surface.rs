@@ -59,7 +59,7 @@ impl Mesh {
         let Some(normals) = self.normals().filter(|_| self.shading() == Shading::Smooth) else {
             return ng;
         };
-        let [a, b, c] = self.triangles()[face as usize].map(|i| normals[i as usize].normalize_or_zero());
+        let [a, b, c] = self.triangles()[face as usize].map(|i| normals[i as usize]);
         let local = a * (1.0 - barycentric.x - barycentric.y) + b * barycentric.x + c * barycentric.y;
         let world = transform.map_or(local, |t| t.normal(local.as_dvec3()).normalize_or_zero().as_vec3());
         match world.try_normalize() {

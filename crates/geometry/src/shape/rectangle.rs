@@ -13,6 +13,9 @@ pub struct Rectangle {
     n: DVec3,
     /// Vectors whose products with `p - center` are a and b.
     dual: [DVec3; 2],
+    /// Lengths of those: what a margin is in units of a and b.
+    dual_lengths: [f64; 2],
+    extent: f64,
     area: f64,
 }
 
@@ -31,7 +34,9 @@ impl Rectangle {
         let n = cross / cross.length();
         let (u, v) = (half_v.cross(n), n.cross(half_u));
         let dual = [u / u.dot(half_u), v / v.dot(half_v)];
-        Ok(Self { center, half_u, half_v, n, dual, area: 4.0 * cross.length() })
+        let dual_lengths = dual.map(DVec3::length);
+        let extent = (center.abs() + half_u.abs() + half_v.abs()).max_element();
+        Ok(Self { center, half_u, half_v, n, dual, dual_lengths, extent, area: 4.0 * cross.length() })
     }
 
     /// Coordinates in units of the half edges.
@@ -41,7 +46,7 @@ impl Rectangle {
     }
 
     pub(super) fn extent(&self) -> f64 {
-        (self.center.abs() + self.half_u.abs() + self.half_v.abs()).max_element()
+        self.extent
     }
 
     pub(super) fn support(&self, v: DVec3) -> f64 {
@@ -53,9 +58,9 @@ impl Rectangle {
         if !out.admits(t) {
             return;
         }
-        let slack = end_slack(self.extent(), origin);
+        let slack = end_slack(self.extent, origin);
         let ab = self.coordinates(origin + direction * t).abs();
-        if ab.x <= 1.0 + slack * self.dual[0].length() && ab.y <= 1.0 + slack * self.dual[1].length() {
+        if ab.x <= 1.0 + slack * self.dual_lengths[0] && ab.y <= 1.0 + slack * self.dual_lengths[1] {
             out.push(t);
         }
     }

@@ -74,8 +74,7 @@ impl Sphere {
         // From the point of closest approach, so that a far origin costs no digits.
         let closest = -origin.dot(direction) / speed2;
         let p = origin + direction * closest;
-        let distance = p.length();
-        let half = ((self.radius - distance) * (self.radius + distance) / speed2).sqrt();
+        let half = ((self.radius * self.radius - p.length_squared()) / speed2).sqrt();
         // NaN, where the line misses, is admitted by no interval.
         for step in [-half, half] {
             let t = closest + step;

@@ -184,6 +184,18 @@ impl SurfaceBsdf {
         self.bsdf.pdf(local_wo, local_wi, self.lanes)
     }
 
+    /// `eval` and `pdf` in one, for less than both.
+    pub fn eval_with_pdf(&self, wo: Vec3, wi: Vec3, transport: Transport) -> (Spectrum, f32) {
+        let (local_wo, local_wi) = (self.frame.to_local(wo), self.frame.to_local(wi));
+        let transmits = local_wo.z * local_wi.z < 0.0;
+        if !self.keeps_sides(wo, wi, transmits) {
+            return (Spectrum::ZERO, 0.0);
+        }
+        let factor = self.eta_scale(wo, transmits, transport)
+            * self.shading_correction(wo, wi, self.frame.n, transport);
+        (self.bsdf.eval(local_wo, local_wi) * factor, self.bsdf.pdf(local_wo, local_wi, self.lanes))
+    }
+
     /// Both directions in which a polished finish sends the radiance's ray on; the mirror direction of a polished coat;
     /// neither for other finishes.
     pub fn branches(&self, wo: Vec3) -> [Option<Branch>; 2] {

@@ -1,10 +1,12 @@
-//! Path tracing: one path per pixel and pass, light sampling and BSDF sampling combined by MIS; see `eye` for the steps.
+//! Path tracing: one path per pixel and pass, light sampling, BSDF sampling and aim combined by MIS; see `eye` for the
+//! steps.
 
+use super::eye::aim::Aim;
 use super::eye::{Draws, Eye};
-use super::per_pixel::PerPixel;
-use super::{Integrator, Prepared, RenderSettings, View};
+use super::per_pixel::CameraRays;
+use super::{Integrator, Pass, Prepared, RenderSettings, View};
 use crate::stats::Stats;
-use hyaline_film::PixelSample;
+use hyaline_film::{PixelSample, Rect};
 use hyaline_math::Ray;
 use hyaline_sampling::Sampler;
 use hyaline_scattering::MediumSet;
@@ -28,11 +30,41 @@ impl Integrator for PathIntegrator {
         _cancel: &AtomicBool,
         _stats: &mut Stats,
     ) -> Box<dyn Prepared + 'w> {
-        Box::new(PerPixel { world, view: *view, settings: *settings, estimate: radiance })
+        Box::new(Paths { world, view: *view, settings: *settings, aim: Aim::new(world) })
     }
 }
 
-/// One estimate of the radiance that arrives along `ray`, which starts inside `set`.
+/// What all passes share.
+struct Paths<'w> {
+    world: &'w World,
+    view: View,
+    settings: RenderSettings,
+    aim: Aim,
+}
+
+impl Prepared for Paths<'_> {
+    fn begin_pass<'a>(&'a self, pass: u32, _stats: &mut Stats) -> Box<dyn Pass + 'a> {
+        Box::new(PathPass { paths: self, pass })
+    }
+}
+
+struct PathPass<'a> {
+    paths: &'a Paths<'a>,
+    pass: u32,
+}
+
+impl Pass for PathPass<'_> {
+    fn render_tile(&self, tile: Rect, samples: &mut [PixelSample], stats: &mut Stats) {
+        let Paths { world, view, settings, aim } = self.paths;
+        let camera = CameraRays { world, view, settings, pass: self.pass };
+        let eye = Eye { world, settings, aim: Some(aim), photons: None };
+        camera.render_tile(tile, samples, |ray, set, sampler, sample| {
+            eye.radiance(ray, set, &mut Draws { sampler, stats }, Some(sample))
+        });
+    }
+}
+
+/// One estimate of the radiance that arrives along `ray`, which starts inside `set`; without aim.
 ///
 /// - `first`: receives what the first surface looks like.
 pub fn radiance(
@@ -44,6 +76,6 @@ pub fn radiance(
     stats: &mut Stats,
     first: Option<&mut PixelSample>,
 ) -> Spectrum {
-    let eye = Eye { world, settings, photons: None };
+    let eye = Eye { world, settings, aim: None, photons: None };
     eye.radiance(ray, set, &mut Draws { sampler, stats }, first)
 }

@@ -8,7 +8,7 @@ use super::surface::{ShiningSides, SurfaceEmission};
 use super::{Cone, DirectSample, EmissionPdf, EmissionSample, LightPoint, UnitBox};
 use hyaline_geometry::{AreaSample, Primitive, Shape, SurfaceHit};
 use hyaline_math::{DMat3, DVec2, DVec3, Frame, Mat3, Transform, Vec2, Vec3, float::gamma};
-use hyaline_sampling::SphericalRectangle;
+use hyaline_sampling::{RectangleFrame, SphericalRectangle};
 use hyaline_spectrum::Spectrum;
 
 /// Diffuse light from a shape.
@@ -31,7 +31,7 @@ pub struct ShapeLight {
 enum Method {
     Area,
     Sphere(SphereDirections),
-    Rectangle { corner: Vec3, edges: [Vec3; 2], n: Vec3 },
+    Rectangle { frame: RectangleFrame, n: Vec3 },
 }
 
 impl ShapeLight {
@@ -48,12 +48,10 @@ impl ShapeLight {
         match &self.method {
             Method::Area => self.sample_by_area(p, u),
             Method::Sphere(sphere) => self.sample_sphere(sphere, p, u),
-            Method::Rectangle { corner, edges, n } => {
-                match SphericalRectangle::new(p, *corner, edges[0], edges[1]) {
-                    Some(view) => self.sample_rectangle(&view, *n, p, u),
-                    None => self.sample_by_area(p, u),
-                }
-            }
+            Method::Rectangle { frame, n } => match frame.seen_from(p) {
+                Some(view) => self.sample_rectangle(&view, *n, p, u),
+                None => self.sample_by_area(p, u),
+            },
         }
     }
 
@@ -66,9 +64,8 @@ impl ShapeLight {
         match &self.method {
             Method::Area => by_area(),
             Method::Sphere(sphere) => sphere.pdf(p.as_dvec3(), wi.as_dvec3(), hit.p.as_dvec3()) as f32,
-            Method::Rectangle { corner, edges, .. } => {
-                let view = SphericalRectangle::new(p, *corner, edges[0], edges[1]);
-                view.map_or_else(by_area, |view| 1.0 / view.solid_angle())
+            Method::Rectangle { frame, .. } => {
+                frame.seen_from(p).map_or_else(by_area, |view| 1.0 / view.solid_angle())
             }
         }
     }
@@ -174,7 +171,8 @@ fn rectangle_method(primitive: &Primitive) -> Method {
         return Method::Area;
     }
     let n = primitive.sample_area(Vec2::splat(0.5)).n;
-    Method::Rectangle { corner: corner.as_vec3(), edges: edges.map(|edge| edge.as_vec3()), n }
+    let [edge_x, edge_y] = edges.map(|edge| edge.as_vec3());
+    Method::Rectangle { frame: RectangleFrame::new(corner.as_vec3(), edge_x, edge_y), n }
 }
 
 /// The factor by which a placement scales, if it scales alike in all directions.

@@ -4,11 +4,12 @@
 //!    medium the path is in.
 //! 2. If the surface shines, add its light, weighed against the other ways to find it.
 //! 3. If the vertex is not singular, gather the photons about it, sample a light, and add what reaches the vertex.
-//! 4. Go on in a direction drawn from the BSDF or phase function. Singular crossings are free: there is no limit on
-//!    them.
+//! 4. Go on in a direction drawn from the BSDF or phase function, or aimed (`aim`). Singular crossings are free: there is
+//!    no limit on them.
 //!    At the first polished surfaces both ways are gone (`split`).
 //! 5. Weak paths end by roulette on their throughput without the n² factor, so none dies for being inside glass.
 
+pub(super) mod aim;
 mod along;
 mod hit;
 mod merges;
@@ -22,9 +23,10 @@ use crate::direct::LastScatter;
 use crate::first_hit;
 use crate::integrator::RenderSettings;
 use crate::integrator::merging::Photons;
-use crate::roulette::{PATIENCE_WITH_SHADING_NORMALS, eye_survival};
+use crate::roulette::{PATIENCE_WITH_SHADING_NORMALS, eye_survival, lone_eye_survival};
 use crate::stats::Stats;
 use crate::walk::{self, Event, Flown, Stretch};
+use aim::Aim;
 use along::Along;
 use hyaline_film::PixelSample;
 use hyaline_math::Ray;
@@ -34,10 +36,15 @@ use hyaline_spectrum::Spectrum;
 use hyaline_world::{World, mask};
 use merges::Merges;
 
+/// Scatterings of a path that are aimed, at most.
+const AIMED_BOUNCES: u32 = 2;
+
 /// What paths have in common.
 pub(super) struct Eye<'a> {
     pub(super) world: &'a World,
     pub(super) settings: &'a RenderSettings,
+    /// Where to look for caustics; `None` where photons bring them.
+    pub(super) aim: Option<&'a Aim>,
     /// Photons to gather.
     pub(super) photons: Option<Photons<'a>>,
 }
@@ -104,31 +111,29 @@ impl Eye<'_> {
         waiting: &mut Vec<Path>,
     ) -> Spectrum {
         loop {
-            let event = match self.walk(&mut path, draws) {
-                Flown::Arrived(event) => event,
+            let mut flown = self.walk(&mut path, draws);
+            let vertex = match &mut flown {
+                Flown::Arrived(Event::Surface(vertex)) => vertex,
+                Flown::Arrived(Event::Sky { transmittance }) => {
+                    return path.light + path.throughput * *transmittance * self.sky(&path);
+                }
                 Flown::Scattered(place) => {
                     *first = None;
-                    match self.at_place(&mut path, &place, draws) {
+                    match self.at_place(&mut path, place, draws) {
                         true => continue,
                         false => return path.light,
                     }
                 }
-            };
-            let mut vertex = match event {
-                Event::Sky { transmittance } => {
-                    return path.light + path.throughput * transmittance * self.sky(&path);
-                }
-                Event::Surface(vertex) => vertex,
             };
             if path.crossings > PATIENCE_WITH_SHADING_NORMALS {
                 vertex.bsdf = vertex.bsdf.without_shading_normal();
             }
             path.throughput *= vertex.transmittance;
             if let Some(sample) = first.take() {
-                first_hit::record(sample, &vertex, &path.ray);
+                first_hit::record(sample, vertex, &path.ray);
             }
-            path.light += path.throughput * self.emitted(&path, &vertex);
-            if !self.at_surface(&mut path, &vertex, waiting, draws) {
+            path.light += path.throughput * self.emitted(&path, vertex);
+            if !self.at_surface(&mut path, vertex, waiting, draws) {
                 return path.light;
             }
         }
@@ -160,7 +165,7 @@ impl Eye<'_> {
             && (path.bounces == 0 || draws.sampler.next_1d() < chance);
         let Path { ray, set, visible, throughput, merges, .. } = path;
         if !self.world.has_volumes {
-            return Flown::Arrived(walk::advance(self.world, ray, *visible, set, draws.stats));
+            return walk::advance_flown(self.world, ray, *visible, set, draws.stats);
         }
         let along = self.photons.as_ref().filter(|_| gathers).map(|photons| Along {
             photons,
@@ -180,6 +185,11 @@ impl Eye<'_> {
         flown
     }
 
+    /// What the path aims at. Each aimed choice may double its weight, so that only the first ones do.
+    fn aim_of(&self, path: &Path) -> Option<&Aim> {
+        self.aim.filter(|_| path.bounces < AIMED_BOUNCES)
+    }
+
     /// Whether the path may scatter once more and still be counted.
     fn may_bounce(&self, path: &Path) -> bool {
         self.settings.max_depth.is_none_or(|limit| path.bounces < limit)
@@ -194,7 +204,8 @@ impl Eye<'_> {
     fn survives(&self, path: &mut Path, draws: &mut Draws<'_>) -> bool {
         let roulette = draws.sampler.next_1d();
         let weight = path.throughput.max_lane(self.world.lanes) / path.index_scale;
-        let survival = eye_survival(weight, path.bounces, path.crossings);
+        let survival_of = if self.photons.is_some() { eye_survival } else { lone_eye_survival };
+        let survival = survival_of(weight, path.bounces, path.crossings);
         if self.settings.max_depth.is_some_and(|limit| path.bounces > limit) || roulette >= survival {
             return false;
         }

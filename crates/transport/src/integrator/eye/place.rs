@@ -1,5 +1,6 @@
 //! What a path does at a particle of a medium.
 
+use super::aim::{Choice, Cones};
 use super::merges::{Beyond, Passed, Place};
 use super::radius::GatherRadius;
 use super::{Draws, Eye, Path, weight};
@@ -21,17 +22,28 @@ impl Eye<'_> {
         if !self.part_survives(path, draws) {
             return false;
         }
+        let aim = self.aim_of(path).and_then(|aim| aim.from_place(place.p));
         if self.may_bounce(path) {
             if let Some(photons) = &self.photons
                 && self.world.media[place.medium.index()].grid.is_some()
             {
                 path.light += path.throughput * self.gather_in_volume(path, place, wo, photons);
             }
-            path.light += path.throughput * self.sampled_light_in_volume(path, place, wo, draws);
+            path.light +=
+                path.throughput * self.sampled_light_in_volume(path, place, wo, aim.as_ref(), draws);
         }
         let phase = in_volume::phase_at(self.world, place);
-        let wi = phase.sample(wo, draws.sampler.next_2d());
-        let pdf = phase.value(wo, wi);
+        let u = draws.sampler.next_2d();
+        let choice = aim.as_ref().map(|cones| cones.choose(draws.sampler.next_1d(), u));
+        let wi = match choice {
+            Some(Choice::Aimed(wi)) => wi,
+            Some(Choice::Free(_)) | None => phase.sample(wo, u),
+        };
+        let value = phase.value(wo, wi);
+        let pdf = aim.as_ref().map_or(value, |cones| cones.density(value, wi));
+        if aim.is_some() {
+            path.throughput *= value / pdf;
+        }
         path.bounces += 1;
         path.crossings = 0;
         path.last = LastScatter { sampled: Some((place.p, pdf)), is_covered: false };
@@ -80,8 +92,10 @@ impl Eye<'_> {
         path: &Path,
         place: &VolumeVertex,
         wo: Vec3,
+        aim: Option<&Cones>,
         draws: &mut Draws<'_>,
     ) -> Spectrum {
+        let going_there = |wi, phase| aim.map_or(phase, |cones| cones.density(phase, wi));
         let merging = |choice: &LightChoice, sample: &DirectSample, phase: f32| {
             let Some(photons) = &self.photons else { return 0.0 };
             let across = phase / (sample.pdf_w * choice.probability);
@@ -98,7 +112,16 @@ impl Eye<'_> {
             let behind = path.merges.behind(Beyond::Wide);
             (behind * across * across + own * own) * light * light
         };
-        in_volume::sample_one_light(self.world, place, wo, &path.set, merging, draws.sampler, draws.stats)
+        in_volume::sample_one_light(
+            self.world,
+            place,
+            wo,
+            &path.set,
+            going_there,
+            merging,
+            draws.sampler,
+            draws.stats,
+        )
     }
 }
 

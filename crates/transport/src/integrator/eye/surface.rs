@@ -1,5 +1,6 @@
 //! What a path does at a surface.
 
+use super::aim::Cones;
 use super::merges::{Beyond, Passed, Place};
 use super::radius::INDIRECT;
 use super::weight::{self, Side};
@@ -31,16 +32,19 @@ impl Eye<'_> {
         if !is_delta && !self.part_survives(path, draws) {
             return false;
         }
+        let is_wide = !is_specular(&vertex.bsdf);
+        let aim = self.aim_of(path).filter(|_| is_wide).and_then(|aim| aim.from_surface(vertex, wo));
         if !is_delta && self.may_bounce(path) {
             if let Some(photons) = &self.photons {
                 path.light += path.throughput * self.gather(path, vertex, wo, photons);
             }
-            path.light += path.throughput * self.sampled_light(path, vertex, wo, draws);
+            path.light += path.throughput * self.sampled_light(path, vertex, wo, aim.as_ref(), draws);
         }
         let (u_lobe, u) = (draws.sampler.next_1d(), draws.sampler.next_2d());
-        let scattered = self
-            .split(path, vertex, wo, waiting)
-            .or_else(|| vertex.bsdf.sample(wo, u_lobe, u, Transport::Radiance));
+        let scattered = self.split(path, vertex, wo, waiting).or_else(|| match &aim {
+            Some(cones) => cones.scatter(vertex, wo, u_lobe, u),
+            None => vertex.bsdf.sample(wo, u_lobe, u, Transport::Radiance),
+        });
         let Some(scattered) = scattered else { return false };
         self.turn(path, vertex, &scattered);
         !path.throughput.is_zero() && self.survives(path, draws)
@@ -100,20 +104,29 @@ impl Eye<'_> {
     }
 
     /// Light of one light, chosen at random, by a shadow ray.
-    fn sampled_light(&self, path: &Path, vertex: &Vertex, wo: Vec3, draws: &mut Draws<'_>) -> Spectrum {
+    fn sampled_light(
+        &self,
+        path: &Path,
+        vertex: &Vertex,
+        wo: Vec3,
+        aim: Option<&Cones>,
+        draws: &mut Draws<'_>,
+    ) -> Spectrum {
         let (u_choice, u) = (draws.sampler.next_1d(), draws.sampler.next_2d());
         let Some(choice) = self.world.lights.direct().sample(u_choice) else { return Spectrum::ZERO };
         let Some(sample) = self.world.lights.get(choice.index).sample_direct(vertex.hit.p, u) else {
             return Spectrum::ZERO;
         };
-        let contribution = vertex.bsdf.eval(wo, sample.wi, Transport::Radiance) * sample.radiance;
+        let (f, pdf) = vertex.bsdf.eval_with_pdf(wo, sample.wi, Transport::Radiance);
+        let contribution = f * sample.radiance;
         if contribution.is_zero() {
             return contribution;
         }
         let far = crosses(vertex, wo, sample.wi).then(|| vertex.far_set(self.world, &path.set));
         let set = far.as_ref().unwrap_or(&path.set);
         let density = sample.pdf_w * choice.probability;
-        let hitting = if sample.is_delta { 0.0 } else { vertex.bsdf.pdf(wo, sample.wi) / density };
+        let pdf = aim.map_or(pdf, |cones| cones.density(pdf, sample.wi));
+        let hitting = if sample.is_delta { 0.0 } else { pdf / density };
         let merging = self.merging_over_sampling(path, vertex, wo, &choice, &sample, set);
         let weight = weight::power(hitting * hitting + merging);
         let ray = shadow::ray_to_light(&vertex.hit, &sample, 0.0);
@@ -162,7 +175,7 @@ impl Gather<'_> {
     fn light_of(&self, photon: &LandedPhoton) -> Spectrum {
         let Self { eye, path, vertex, wo, .. } = *self;
         let wi = -photon.direction;
-        let f = vertex.bsdf.eval(wo, wi, Transport::Radiance);
+        let (f, pdf) = vertex.bsdf.eval_with_pdf(wo, wi, Transport::Radiance);
         if f.is_zero() || photon.bounces >= eye.bounces_left(path) {
             return Spectrum::ZERO;
         }
@@ -171,7 +184,7 @@ impl Gather<'_> {
             true => eye.world.ior(vertex.far_set(eye.world, &path.set).active()),
             false => ior_before,
         };
-        let toward_light = side(vertex, wi, vertex.bsdf.pdf(wo, wi), ior);
+        let toward_light = side(vertex, wi, pdf, ior);
         if toward_light.cos == 0.0 {
             return Spectrum::ZERO;
         }

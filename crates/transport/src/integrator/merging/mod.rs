@@ -96,7 +96,7 @@ impl Pass for MergingPass<'_> {
         let Merging { world, view, settings, senders } = self.merging;
         let camera = CameraRays { world, view, settings, pass: self.pass };
         let photons = senders.any().then_some(Photons { senders, landed: &self.landed, radius: self.radius });
-        let eye = Eye { world, settings, photons };
+        let eye = Eye { world, settings, aim: None, photons };
         camera.render_tile(tile, samples, |ray, set, sampler, sample| {
             eye.radiance(ray, set, &mut Draws { sampler, stats }, Some(sample))
         });

@@ -26,19 +26,19 @@ impl Beam {
     /// are drawn together into one, and the ball grows by what they lie apart.
     pub(super) fn may_meet(&self, target: &Ball) -> bool {
         let to_target = target.center - self.origins.center;
-        let distance = to_target.length();
         let radius = target.radius + self.origins.radius;
-        if distance <= radius {
+        // Sine and cosine of the target's half-angle are radius and tangent over the distance. All that follows is
+        // multiplied by it, so that a target costs one square root and no division.
+        let tangent2 = to_target.length_squared() - radius * radius;
+        if tangent2 <= 0.0 || self.directions.half_angle >= PI {
             return true;
         }
-        let sin_target = radius / distance;
-        let cos_target = (1.0 - sin_target * sin_target).max(0.0).sqrt();
+        let tangent = tangent2.sqrt();
         // Both angles add up to more than a half turn where the sine of the sum is negative.
-        let sin_sum = self.sin * cos_target + self.cos * sin_target;
-        if sin_sum < 0.0 || self.directions.half_angle >= PI {
+        if self.sin * tangent + self.cos * radius < 0.0 {
             return true;
         }
-        let cos_sum = self.cos * cos_target - self.sin * sin_target;
-        self.directions.axis.dot(to_target) >= distance * (cos_sum - 1e-12)
+        let cos_sum = self.cos * tangent - self.sin * radius;
+        self.directions.axis.dot(to_target) >= cos_sum - 1e-12 * (tangent + radius)
     }
 }

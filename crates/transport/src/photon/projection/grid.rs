@@ -30,38 +30,41 @@ impl Grid {
         let words_per_row = (size as usize).div_ceil(64);
         let words = vec![0; words_per_row * size as usize];
         let mut grid = Self { size, words_per_row, words, starts: Vec::new() };
-        grid.fill([0, size], [0, size], targets, reaches);
+        grid.fill([0, size], [0, size], &mut targets.to_vec(), reaches);
         grid.count();
         grid
     }
 
+    /// - `targets`: those that may be in the way; their order is changed.
     fn fill<F: Fn(&Ball) -> bool>(
         &mut self,
         x: [u32; 2],
         y: [u32; 2],
-        targets: &[Ball],
+        targets: &mut [Ball],
         reaches: &impl Fn(&UnitBox) -> F,
     ) {
         let test = reaches(&self.unit_box(x, y));
         let (width, height) = (x[1] - x[0], y[1] - y[0]);
         if width == 1 && height == 1 {
-            if targets.iter().any(test) {
+            if let Some(met) = targets.iter().position(test) {
                 self.set(x[0], y[0]);
+                // The neighbors are likely to meet it, too.
+                targets.swap(0, met);
             }
             return;
         }
-        let near: Vec<Ball> = targets.iter().copied().filter(test).collect();
+        let near = bring_forward(targets, test);
         if near.is_empty() {
             return;
         }
         if width >= height {
             let middle = halfway(x);
-            self.fill([x[0], middle], y, &near, reaches);
-            self.fill([middle, x[1]], y, &near, reaches);
+            self.fill([x[0], middle], y, near, reaches);
+            self.fill([middle, x[1]], y, near, reaches);
         } else {
             let middle = halfway(y);
-            self.fill(x, [y[0], middle], &near, reaches);
-            self.fill(x, [middle, y[1]], &near, reaches);
+            self.fill(x, [y[0], middle], near, reaches);
+            self.fill(x, [middle, y[1]], near, reaches);
         }
     }
 
@@ -132,6 +135,18 @@ impl Grid {
     pub(super) fn memory(&self) -> usize {
         size_of_val(&self.words[..]) + size_of_val(&self.starts[..])
     }
+}
+
+/// Puts those that pass the test before the others, and returns them.
+fn bring_forward<T>(things: &mut [T], test: impl Fn(&T) -> bool) -> &mut [T] {
+    let mut count = 0;
+    for i in 0..things.len() {
+        if test(&things[i]) {
+            things.swap(i, count);
+            count += 1;
+        }
+    }
+    &mut things[..count]
 }
 
 /// The middle of a range: at its finest power of two, so that halves of the square are asked about as such.
