@@ -3,11 +3,57 @@
 use crate::shadow;
 use crate::stats::Stats;
 use crate::walk::VolumeVertex;
-use hyaline_math::Vec3;
+use hyaline_math::{Vec2, Vec3};
 use hyaline_sampling::{Sampler, mis};
-use hyaline_scattering::{MediumSet, Phase};
+use hyaline_scattering::{MediumId, MediumSet, Phase};
 use hyaline_spectrum::Spectrum;
 use hyaline_world::World;
+use hyaline_world::light::Light;
+
+/// A place in a medium that asks for light.
+#[derive(Clone, Copy, Debug)]
+pub struct VolumeLight<'a> {
+    /// Where.
+    pub world: &'a World,
+    /// The place.
+    pub p: Vec3,
+    /// The medium in force there.
+    pub medium: MediumId,
+    /// Unit direction back along the path.
+    pub wo: Vec3,
+    /// What the place is in.
+    pub set: &'a MediumSet,
+    /// Whether directions drawn from the phase function find lights too, so that the two share them.
+    pub use_mis: bool,
+}
+
+impl VolumeLight<'_> {
+    /// Light of one light, chosen at random, that goes on against the path: an estimate of the sum over all lights, the
+    /// scattering coefficient left out.
+    pub fn sample_one(&self, sampler: &mut Sampler, stats: &mut Stats) -> Spectrum {
+        let (u_choice, u) = (sampler.next_1d(), sampler.next_2d());
+        let Some(choice) = self.world.lights.direct().sample(u_choice) else { return Spectrum::ZERO };
+        let light = self.world.lights.get(choice.index);
+        self.from_light(light, choice.probability, u, stats) / choice.probability
+    }
+
+    /// Light of `light`, one sample; `probability` is that of having chosen it, for MIS.
+    pub fn from_light(&self, light: &Light, probability: f32, u: Vec2, stats: &mut Stats) -> Spectrum {
+        let Some(sample) = light.sample_direct(self.p, u) else { return Spectrum::ZERO };
+        let phase = self.world.media[self.medium.index()].phase.value(self.wo, sample.wi);
+        if phase == 0.0 || sample.radiance.is_zero() {
+            return Spectrum::ZERO;
+        }
+        let weight = match sample.is_delta || !self.use_mis {
+            true => 1.0,
+            false => mis::power(sample.pdf_w * probability, phase),
+        };
+        let ray = shadow::ray_from(self.p, &sample, 0.0);
+        let way = shadow::straight_way(self.world, &ray, self.set, stats);
+        let visible = way.shared * weight + way.alone;
+        sample.radiance * visible * (phase / sample.pdf_w)
+    }
+}
 
 /// Light of one light, chosen at random, that the medium sends back along the path: an estimate of the sum over all
 /// lights, to be shared with directions drawn from the phase function.
@@ -22,23 +68,8 @@ pub fn sample_one_light(
     sampler: &mut Sampler,
     stats: &mut Stats,
 ) -> Spectrum {
-    let (u_choice, u) = (sampler.next_1d(), sampler.next_2d());
-    let Some(choice) = world.lights.direct().sample(u_choice) else { return Spectrum::ZERO };
-    let Some(sample) = world.lights.get(choice.index).sample_direct(vertex.p, u) else {
-        return Spectrum::ZERO;
-    };
-    let phase = phase_at(world, vertex).value(wo, sample.wi);
-    if phase == 0.0 || sample.radiance.is_zero() {
-        return Spectrum::ZERO;
-    }
-    let weight = match sample.is_delta {
-        true => 1.0,
-        false => mis::power(sample.pdf_w * choice.probability, phase),
-    };
-    let ray = shadow::ray_from(vertex.p, &sample, 0.0);
-    let way = shadow::straight_way(world, &ray, set, stats);
-    let visible = way.shared * weight + way.alone;
-    sample.radiance * visible * (phase / (sample.pdf_w * choice.probability))
+    let VolumeVertex { p, medium, .. } = *vertex;
+    VolumeLight { world, p, medium, wo, set, use_mis: true }.sample_one(sampler, stats)
 }
 
 /// The phase function in force at a place.

@@ -140,18 +140,34 @@ pub fn fly(
 }
 
 /// What media do to a path between two crossings.
-trait Between {
+pub(crate) trait Between {
     /// Follows the path over `distance` along `ray`; `left` is what of its light has come that far, and is updated.
     ///
     /// Returns the distance at which it scatters; `None` where it arrives.
-    fn pass(&mut self, medium: &Medium, ray: &Ray, distance: f32, left: &mut Spectrum) -> Option<f32>;
+    ///
+    /// - `set`: what the path is in, `medium` in force.
+    fn pass(
+        &mut self,
+        set: &MediumSet,
+        medium: &Medium,
+        ray: &Ray,
+        distance: f32,
+        left: &mut Spectrum,
+    ) -> Option<f32>;
 }
 
 /// Media dim the light and do nothing else.
 struct Dimmed;
 
 impl Between for Dimmed {
-    fn pass(&mut self, medium: &Medium, ray: &Ray, distance: f32, left: &mut Spectrum) -> Option<f32> {
+    fn pass(
+        &mut self,
+        _set: &MediumSet,
+        medium: &Medium,
+        ray: &Ray,
+        distance: f32,
+        left: &mut Spectrum,
+    ) -> Option<f32> {
         *left *= volume::transmittance(medium, ray, distance);
         None
     }
@@ -166,9 +182,16 @@ struct Flights<'a> {
 }
 
 impl Between for Flights<'_> {
-    fn pass(&mut self, medium: &Medium, ray: &Ray, distance: f32, left: &mut Spectrum) -> Option<f32> {
+    fn pass(
+        &mut self,
+        set: &MediumSet,
+        medium: &Medium,
+        ray: &Ray,
+        distance: f32,
+        left: &mut Spectrum,
+    ) -> Option<f32> {
         if !medium.scatters() && !medium.shines() && medium.grid.is_none() {
-            return Dimmed.pass(medium, ray, distance, left);
+            return Dimmed.pass(set, medium, ray, distance, left);
         }
         let flyer =
             Flyer { throughput: self.throughput * *left, lanes: self.lanes, u: self.sampler.next_2d() };
@@ -179,7 +202,8 @@ impl Between for Flights<'_> {
     }
 }
 
-fn walk(
+/// The walk that all others are.
+pub(crate) fn walk(
     world: &World,
     ray: &Ray,
     visible: u8,
@@ -196,7 +220,7 @@ fn walk(
         let medium = &world.media[within.index()];
         let candidate = world.geometry.closest(&ray, visible);
         let way = candidate.as_ref().map_or(f32::INFINITY, |candidate| candidate.t);
-        if let Some(t) = between.pass(medium, &ray, way, &mut transmittance) {
+        if let Some(t) = between.pass(set, medium, &ray, way, &mut transmittance) {
             let distance = distance + t;
             return Flown::Scattered(VolumeVertex {
                 p: ray.at(t),
