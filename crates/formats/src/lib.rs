@@ -21,6 +21,7 @@ mod color;
 mod grid;
 mod image;
 mod limits;
+mod measured;
 mod mesh;
 mod mitsuba;
 mod nearest;

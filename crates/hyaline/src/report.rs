@@ -48,6 +48,9 @@ pub(crate) struct PhotonMapsReport {
     pub(crate) caustic: MapReport,
     /// The map of the rest, or of all light.
     pub(crate) global: MapReport,
+    /// Light that media scatter; absent where none does.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) volume: Option<MapReport>,
 }
 
 /// One photon map.
@@ -63,6 +66,10 @@ pub(crate) struct MapReport {
     pub(crate) tracing: f64,
     /// Seconds that building the tree took.
     pub(crate) building: f64,
+    /// Estimates made from it by this run.
+    pub(crate) look_ups: u64,
+    /// Seconds that they took, all threads together, judged by one in 64.
+    pub(crate) looking_up: f64,
 }
 
 impl From<PhotonStatistics> for PhotonMapsReport {
@@ -73,8 +80,11 @@ impl From<PhotonStatistics> for PhotonMapsReport {
             bytes: map.bytes,
             tracing: map.tracing.as_secs_f64(),
             building: map.building.as_secs_f64(),
+            look_ups: map.look_ups,
+            looking_up: map.looking_up.as_secs_f64(),
         };
-        Self { caustic: map(statistics.caustic), global: map(statistics.global) }
+        let volume = (statistics.volume.emitted > 0).then(|| map(statistics.volume));
+        Self { caustic: map(statistics.caustic), global: map(statistics.global), volume }
     }
 }
 
@@ -82,13 +92,15 @@ impl PhotonMapsReport {
     /// One line for people.
     fn to_text(self) -> String {
         let map = |name: &str, map: MapReport| {
-            let MapReport { emitted, stored, bytes, tracing, building } = map;
+            let MapReport { emitted, stored, bytes, tracing, building, look_ups, looking_up } = map;
             format!(
-                "{name} {stored} of {emitted} ({:.1} MB, traced {tracing:.1} s, built {building:.1} s)",
-                bytes as f64 / 1e6
+                "{name} {stored} of {emitted} ({:.1} MB, traced {tracing:.1} s, built {building:.1} s, looked up {:.1} M times in {looking_up:.1} s)",
+                bytes as f64 / 1e6,
+                look_ups as f64 / 1e6
             )
         };
-        format!("photons kept: {}, {}", map("caustic", self.caustic), map("global", self.global))
+        let volume = self.volume.map_or_else(String::new, |volume| format!(", {}", map("volume", volume)));
+        format!("photons kept: {}, {}{volume}", map("caustic", self.caustic), map("global", self.global))
     }
 }
 
@@ -151,7 +163,7 @@ mod tests {
         let map = MapStatistics { emitted: 100, stored: 60, bytes: 1200, ..MapStatistics::default() };
         let maps = PhotonMapsReport::from(PhotonStatistics { caustic: map, ..PhotonStatistics::default() });
         let value = serde_json::to_value(maps).unwrap();
-        for key in ["emitted", "stored", "bytes", "tracing", "building"] {
+        for key in ["emitted", "stored", "bytes", "tracing", "building", "look_ups", "looking_up"] {
             assert!(value["caustic"][key].is_number() && value["global"][key].is_number(), "{key}");
         }
         assert_eq!(value["caustic"]["stored"], 60);

@@ -14,23 +14,26 @@ pub(crate) fn in_words(integrator: &str, settings: &RenderSettings) -> String {
     if integrator == DEBUG {
         words.push_str(&format!(", debug {:?}", settings.debug));
     }
+    if MARCHING.contains(&integrator) {
+        words.push_str(&format!(", march {:?}", settings.march));
+    }
     if uses_photon_map(integrator, settings) {
         words.push_str(&format!(", photon_map {:?}", settings.photon_map));
     }
     words
 }
 
-/// What an integrator leaves out of the light in media, where the scene has such light.
+/// What an integrator leaves out of the light that media send out, where the scene has such light.
 pub(crate) fn unseen_light(integrator: &str, media: &[Located<MediumDescription>]) -> Option<String> {
-    if ![WHITTED, PHOTON_MAP].contains(&integrator) {
+    if !MARCHING.contains(&integrator) {
         return None;
     }
-    let shines = |medium: &MediumDescription| medium.scattering.is_some() || medium.emission != [0.0; 3];
+    let shines = |medium: &MediumDescription| medium.emission != [0.0; 3];
     let names: Vec<String> =
         media.iter().filter(|medium| shines(medium)).map(|medium| format!("'{}'", medium.name)).collect();
     let list = names.join(", ");
     (!names.is_empty()).then(|| {
-        format!("'{integrator}' shows no light that media scatter or send out, only what they dim: {list}; 'merging' and 'path' do")
+        format!("'{integrator}' shows media that shine, but not all that they light: {list}; 'merging' and 'path' do")
     })
 }
 
@@ -45,6 +48,11 @@ pub(crate) fn idle(integrator: &str, given: &Settings, settings: &RenderSettings
     let is_whitted = integrator == WHITTED;
     tell(given.min_weight.is_some() && !is_whitted, "min_weight", "only 'whitted' uses it");
     tell(given.light_samples.is_some() && !is_whitted, "light_samples", "only 'whitted' uses it");
+    tell(
+        given.march != Default::default() && !MARCHING.contains(&integrator),
+        "march",
+        "only 'whitted' and 'photon-map' use it",
+    );
     tell(given.debug != Default::default() && integrator != DEBUG, "debug", "only 'debug' uses it");
     let uses_photons = uses_photon_map(integrator, settings);
     let PhotonMapSettings { projection, projection_cells, final_gather, gather_rays, exclude_direct, .. } =
@@ -70,18 +78,14 @@ pub(crate) fn idle(integrator: &str, given: &Settings, settings: &RenderSettings
         "photon_map.exclude_direct",
         "without final_gather direct light is never looked up",
     );
-    let (asked, nearest) = (given.photon_map.volume_photons, given.photon_map.nearest.volume);
-    tell(
-        uses_photons && (asked, nearest) != (defaults.volume_photons, defaults.nearest.volume),
-        "photon_map.volume_photons",
-        "there is no volume map yet",
-    );
     lines
 }
 
 const WHITTED: &str = "whitted";
 const DEBUG: &str = "debug";
 const PHOTON_MAP: &str = "photon-map";
+/// Those that march through media.
+const MARCHING: [&str; 2] = [WHITTED, PHOTON_MAP];
 
 fn uses_photon_map(integrator: &str, settings: &RenderSettings) -> bool {
     integrator == PHOTON_MAP || (integrator == DEBUG && shows_photons(settings.debug))
@@ -133,6 +137,9 @@ mod tests {
         assert_eq!(words("path", &weighty), words("path", &Settings::default()));
         assert_eq!(idle_keys("path", &weighty), ["settings.min_weight", "settings.light_samples"]);
         assert_eq!(idle_keys("whitted", &weighty), Vec::<String>::new());
+        let march = Settings { march: hyaline_scene::MarchStep::Fixed { length: 1.0 }, ..Default::default() };
+        assert_ne!(words("whitted", &march), words("whitted", &Settings::default()));
+        assert_eq!(idle_keys("path", &march), ["settings.march"]);
         let depth = Settings { debug: DebugView::Depth, ..Default::default() };
         assert_ne!(words("debug", &depth), words("debug", &Settings::default()));
         assert_eq!(idle_keys("path", &depth), ["settings.debug"]);
@@ -154,16 +161,14 @@ mod tests {
 
     #[test]
     fn integrators_that_miss_light_of_media_name_the_media() {
-        use hyaline_scene::{IndexDescription, PhaseDescription, Scattering};
+        use hyaline_scene::IndexDescription;
         let clear = |name: &str| MediumDescription::clear(name, IndexDescription::Constant(1.0));
-        let scattering = Scattering { sigma_s: [1.0; 3], phase: PhaseDescription::Isotropic };
-        let fog = MediumDescription { scattering: Some(scattering), ..clear("fog") };
         let plasma = MediumDescription { emission: [1.0; 3], ..clear("plasma") };
-        let media: Vec<Located<_>> = vec![fog.into(), clear("water").into(), plasma.into()];
+        let media: Vec<Located<_>> = vec![clear("water").into(), plasma.into()];
         for integrator in ["whitted", "photon-map"] {
             let warning = unseen_light(integrator, &media).unwrap();
-            assert!(warning.contains("'fog', 'plasma'") && !warning.contains("water"), "{warning}");
-            assert_eq!(unseen_light(integrator, &media[1..2]), None);
+            assert!(warning.contains("'plasma'") && !warning.contains("water"), "{warning}");
+            assert_eq!(unseen_light(integrator, &media[..1]), None);
         }
         assert_eq!(unseen_light("merging", &media), None);
         assert_eq!(unseen_light("path", &media), None);

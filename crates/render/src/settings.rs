@@ -14,6 +14,7 @@ pub fn render_settings(description: &hyaline_scene::Settings) -> RenderSettings 
         max_depth: description.max_depth,
         min_weight: description.min_weight.unwrap_or(defaults.min_weight),
         light_samples: description.light_samples.unwrap_or(defaults.light_samples).max(1),
+        march: description.march,
         photon_map: description.photon_map,
         debug: description.debug,
     }

@@ -67,6 +67,14 @@ impl Medium {
         self.grid.as_ref().map_or(1.0, |grid| grid.density(p))
     }
 
+    /// Scattering coefficient at a point of the world where the density is known, 1 / scene unit.
+    pub fn sigma_s_at(&self, p: Vec3, density: f32) -> Spectrum {
+        match self.grid.as_ref().and_then(|grid| grid.albedo(p)) {
+            Some(albedo) => self.sigma_t() * albedo * density,
+            None => self.sigma_s * density,
+        }
+    }
+
     /// Whether it sends out light.
     pub fn shines(&self) -> bool {
         !self.emission.is_zero()
@@ -74,7 +82,7 @@ impl Medium {
 
     /// Whether it sends light elsewhere.
     pub fn scatters(&self) -> bool {
-        !self.sigma_s.is_zero()
+        !self.sigma_s.is_zero() || self.grid.as_ref().is_some_and(|grid| grid.has_albedo())
     }
 
     /// Fraction of light, per lane, that a homogeneous medium neither absorbs nor scatters; see

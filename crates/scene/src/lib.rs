@@ -26,8 +26,8 @@ pub use object::{
     ProfileCurve, RimKind, ShapeDescription, ShapePart, VesselDescription, VesselProfile,
 };
 pub use settings::{
-    Collection, DebugView, FileIntegrator, FilmDescription, NearestPhotons, PhotonKernel, PhotonMapSettings,
-    PixelFilter, ProjectionMaps, SamplerKind, Settings,
+    Collection, DebugView, FileIntegrator, FilmDescription, MarchStep, NearestPhotons, PhotonKernel,
+    PhotonMapSettings, PixelFilter, ProjectionMaps, SamplerKind, Settings,
 };
 pub use texture::{ImageData, TextureDescription, TextureFilter, TextureKind, Wrap};
 

@@ -20,6 +20,8 @@ pub struct Settings {
     pub max_depth: Option<u32>,
     /// `whitted`: shadow rays per area light and hit; default 1, as passes add up.
     pub light_samples: Option<u32>,
+    /// `whitted` and `photon-map`: how the eye marches through media that scatter.
+    pub march: MarchStep,
     /// `photon-map`: what its stages do.
     pub photon_map: PhotonMapSettings,
     /// `debug`: what it shows.
@@ -38,6 +40,27 @@ pub struct FileIntegrator {
     pub max_depth: Option<u32>,
     /// Samples per pixel, where given.
     pub spp: Option<u32>,
+}
+
+/// How far the places are apart where a ray that marches through a medium asks for light.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub enum MarchStep {
+    /// -ln ξ over the extinction coefficient: short where the medium is dense.
+    Adaptive {
+        /// Places on a mean free path, ≥ 1 on the mean.
+        stations: f32,
+    },
+    /// The same everywhere.
+    Fixed {
+        /// Scene units, > 0.
+        length: f64,
+    },
+}
+
+impl Default for MarchStep {
+    fn default() -> Self {
+        Self::Adaptive { stations: 4.0 }
+    }
 }
 
 /// Settings of `photon-map`, in the words of Jensen's *Realistic Image Synthesis Using Photon Mapping*.
@@ -69,6 +92,8 @@ pub struct PhotonMapSettings {
     pub gather_rays: u32,
     /// Whether the global map leaves direct light out and shadow rays add it wherever the map is looked up.
     pub exclude_direct: bool,
+    /// Whether the volume map leaves out light that comes straight from the lights and shadow rays add it.
+    pub exclude_single_scattering: bool,
     /// Bounces of a photon, at most, singular ones not counted.
     pub max_bounces: u32,
 }
@@ -89,7 +114,8 @@ impl Default for PhotonMapSettings {
             final_gather: true,
             gather_rays: 1,
             exclude_direct: false,
-            max_bounces: 64,
+            exclude_single_scattering: true,
+            max_bounces: 1000,
         }
     }
 }

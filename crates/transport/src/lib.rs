@@ -4,6 +4,7 @@ pub mod direct;
 pub mod first_hit;
 pub mod in_volume;
 pub mod integrator;
+pub mod march;
 pub mod photon;
 mod roulette;
 pub mod shadow;

@@ -182,13 +182,16 @@ pub struct Stretch<'a> {
 }
 
 /// What media do to a path between two crossings.
-trait Between {
+pub(crate) trait Between {
     /// Follows the path over `distance` along `ray`; `left` is what of its light has come that far, and is updated.
     ///
     /// Returns the distance at which it scatters; `None` where it arrives.
+    ///
+    /// - `set`: what the path is in, `medium` in force.
     fn pass(
         &mut self,
-        medium: (MediumId, &Medium),
+        set: &MediumSet,
+        medium: &Medium,
         ray: &Ray,
         distance: f32,
         left: &mut Spectrum,
@@ -201,7 +204,8 @@ struct Dimmed;
 impl Between for Dimmed {
     fn pass(
         &mut self,
-        (_, medium): (MediumId, &Medium),
+        _set: &MediumSet,
+        medium: &Medium,
         ray: &Ray,
         distance: f32,
         left: &mut Spectrum,
@@ -223,19 +227,21 @@ struct Flights<'a, Watch> {
 impl<Watch: FnMut(&Stretch<'_>)> Between for Flights<'_, Watch> {
     fn pass(
         &mut self,
-        (id, medium): (MediumId, &Medium),
+        set: &MediumSet,
+        medium: &Medium,
         ray: &Ray,
         distance: f32,
         left: &mut Spectrum,
     ) -> Option<f32> {
         if !medium.scatters() && !medium.shines() && medium.grid.is_none() {
-            return Dimmed.pass((id, medium), ray, distance, left);
+            return Dimmed.pass(set, medium, ray, distance, left);
         }
         let flyer =
             Flyer { throughput: self.throughput * *left, lanes: self.lanes, u: self.sampler.next_2d() };
         let flight = flyer.fly(medium, ray, distance);
         if medium.grid.is_none() && medium.scatters() {
             let flown = flight.scatters_at.unwrap_or(distance);
+            let id = set.active();
             (self.watch)(&Stretch { medium, id, ray: *ray, way: distance, flown, left: *left });
         }
         self.emitted += *left * flight.emitted;
@@ -244,7 +250,8 @@ impl<Watch: FnMut(&Stretch<'_>)> Between for Flights<'_, Watch> {
     }
 }
 
-fn walk(
+/// The walk that all others are.
+pub(crate) fn walk(
     world: &World,
     ray: &Ray,
     visible: u8,
@@ -261,7 +268,7 @@ fn walk(
         let medium = &world.media[within.index()];
         let candidate = world.geometry.closest(&ray, visible);
         let way = candidate.as_ref().map_or(f32::INFINITY, |candidate| candidate.t);
-        if let Some(t) = between.pass((within, medium), &ray, way, &mut transmittance) {
+        if let Some(t) = between.pass(set, medium, &ray, way, &mut transmittance) {
             let distance = distance + t;
             return Flown::Scattered(VolumeVertex {
                 p: ray.at(t),

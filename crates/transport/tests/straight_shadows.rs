@@ -197,6 +197,21 @@ fn the_eye_sees_through_glass_with_straight_shadows_as_through_any() {
 }
 
 #[test]
+fn photon_maps_leave_straight_light_to_shadow_rays() {
+    let mut kit = receiver();
+    kit.surface("pane", slab_sheet(0.5), "clear pane");
+    kit.lamp("lamp", facing_down(DVec3::Y * 1.5, 0.7), 2.0);
+    let [off, on] = [false, true].map(|on| {
+        let world = with_straight_shadows(&kit, on);
+        let photon_map = PhotonMapSettings { caustic_photons: 2_000_000, ..PhotonMapSettings::default() };
+        let settings = hyaline_transport::RenderSettings { photon_map, ..settings() };
+        Shot { world: &world, integrator: "photon-map", settings, size: (1, 1) }.pixel(3000).0.mean()
+    });
+    // Few of the photons meet so small a receiver; counted twice, the light would be double.
+    assert!((on / off - 1.0).abs() < 0.15, "{on} with straight shadows, {off} without");
+}
+
+#[test]
 fn what_is_opaque_behind_the_glass_still_throws_its_shadow() {
     let mut kit = receiver();
     kit.surface("pane", slab_sheet(0.5), "clear pane");

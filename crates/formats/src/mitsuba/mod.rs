@@ -21,7 +21,6 @@ mod object_names;
 mod parameters;
 mod parse;
 mod phase;
-mod preset;
 mod sensor;
 mod shape;
 mod spectrum;

@@ -6,9 +6,10 @@
 use super::element::Element;
 use super::field::{self, Field};
 use super::importer::Importer;
-use super::{phase, preset};
+use super::phase;
 use crate::Result;
 use crate::limits::Limits;
+use crate::measured::{self, Measured};
 use hyaline_math::Transform;
 use hyaline_scene::{
     Absorption, DensityGrid, GridData, MediumDescription, PhaseDescription, Rgb, Scattering,
@@ -116,7 +117,8 @@ impl Importer<'_> {
         let says_nothing = self.is_old && sigma_t.is_none() && albedo.is_none();
         let name = material.as_ref().map(|name| name.as_str()).or(says_nothing.then_some("skin1"));
         if let Some(name) = name {
-            if let Some((sigma_s, sigma_a)) = preset::coefficients(name) {
+            // In 1/mm: `scale` of the medium turns them into 1 / scene unit.
+            if let Some(Measured { sigma_s, sigma_a, .. }) = measured::by_name(name).copied() {
                 return Ok(Coefficients::Apart(sigma_a, sigma_s));
             }
             medium.warn(format!("the medium material '{name}' is not known; sigma_t and albedo count"));

@@ -81,7 +81,7 @@ fn size(field: Field<'_>) -> Result<[u32; 3]> {
 mod tests {
     use crate::load_toml_text;
     use hyaline_math::DVec3;
-    use hyaline_scene::{DensityGrid, PhaseDescription, SceneError};
+    use hyaline_scene::{Absorption, DensityGrid, IndexDescription, PhaseDescription, SceneError};
     use std::path::Path;
 
     fn folder() -> tempfile::TempDir {
@@ -149,6 +149,27 @@ mod tests {
         ] {
             let error = grid(keys).unwrap_err().to_string();
             assert!(error.contains(message) && error.contains("a.toml:5"), "{keys}: {error}");
+        }
+    }
+
+    #[test]
+    fn measured_liquids_come_in_scene_units() {
+        let milk = load("measured = 'Whole Milk'\nconcentration = 0.5").unwrap();
+        let scattering = milk.scattering.unwrap();
+        assert_eq!(scattering.sigma_s, [1275.0, 1605.0, 1885.0]);
+        assert_eq!(scattering.phase, PhaseDescription::Isotropic);
+        let Absorption::SigmaA(sigma_a) = milk.absorption else { panic!("{:?}", milk.absorption) };
+        assert!((sigma_a[0] - 0.55).abs() < 1e-6 && (sigma_a[2] - 7.0).abs() < 1e-5, "{sigma_a:?}");
+        assert!(matches!(milk.index, IndexDescription::Named(name) if name.value == "water"));
+        let other = load("measured = 'merlot'\nior = 1.36\nsigma_s = 0").unwrap();
+        assert_eq!((other.index, other.scattering), (IndexDescription::Constant(1.36), None));
+        for (keys, message) in [
+            ("measured = 'wohle milk'", "the nearest is 'whole milk'"),
+            ("measured = 'merlot'\nconcentration = 0", "`concentration` must be above 0"),
+            ("concentration = 0.5", "unknown key `concentration`"),
+        ] {
+            let error = load(keys).unwrap_err().to_string();
+            assert!(error.contains(message) && error.contains("a.toml:"), "{keys}: {error}");
         }
     }
 

@@ -4,6 +4,7 @@
 //! `{ sellmeier = { b = [..], c = [..] } }` (micrometres). Absorption is one of `color = { rgb = .., at = "20 cm" }`,
 //! `filter` (per scene unit, above 0 and at most 1) and `sigma_a` (1 / scene unit). `sigma_s` scatters with mean
 //! cosine `g` or by `phase`: "isotropic", "rayleigh", `{ hg = g }` or `{ double = [g1, g2, share of the second] }`.
+//! `measured` names a liquid whose coefficients are known, `concentration` thins it (1); its index is that of water.
 //! `emission` is what the volume sends out by itself (W sr⁻¹ m⁻³), `grid` where it is how dense; `priority` decides
 //! where solids overlap.
 
@@ -13,7 +14,10 @@ use super::table::Table;
 use crate::Result;
 use crate::assets::Assets;
 use crate::limits::Limits;
-use hyaline_scene::{Absorption, IndexDescription, MediumDescription, PhaseDescription, Scattering};
+use crate::measured;
+use hyaline_scene::{
+    Absorption, IndexDescription, Located, MediumDescription, PhaseDescription, Rgb, Scattering,
+};
 
 /// Indices of refraction that exist or are worth trying.
 const IOR: Limits = Limits::above_to(0.0, 100.0);
@@ -25,6 +29,10 @@ pub(super) fn read(
     base: MediumDescription,
     assets: &Assets,
 ) -> Result<MediumDescription> {
+    let base = match table.take("measured") {
+        Some(field) => measured(field, table.take("concentration"), metres, base)?,
+        None => base,
+    };
     let index = table.read("ior", base.index, index)?;
     let absorption = match table.take_one(&["color", "filter", "sigma_a"])? {
         None => base.absorption,
@@ -47,6 +55,35 @@ pub(super) fn read(
         table.read("priority", i64::from(base.priority), |f| f.integer(priorities.0, priorities.1))?;
     let priority = priority as i32;
     Ok(MediumDescription { index, absorption, scattering, emission, density, priority, ..base })
+}
+
+/// The coefficients of a liquid by its name.
+///
+/// - `concentration`: share of it in water that absorbs nothing.
+fn measured(
+    field: Field<'_>,
+    concentration: Option<Field<'_>>,
+    metres: f64,
+    base: MediumDescription,
+) -> Result<MediumDescription> {
+    let name = field.string()?;
+    let Some(liquid) = measured::by_name(name) else {
+        let nearest = measured::nearest_name(name);
+        return Err(field
+            .error(format!("nothing is known of '{name}'"))
+            .with_remedy(format!("the nearest is '{nearest}'; docs/scene-format.md lists them all")));
+    };
+    let share = concentration.map_or(Ok(1.0), |field| field.number(Limits::above_to(0.0, 1.0)))?;
+    // The table is in 1/mm.
+    let factor = (share * metres / 1e-3) as f32;
+    let scaled = |sigma: Rgb| sigma.map(|sigma| sigma * factor);
+    Ok(MediumDescription {
+        index: IndexDescription::Named(Located::new("water".to_owned(), field.source().clone())),
+        absorption: Absorption::SigmaA(scaled(liquid.sigma_a)),
+        // Reduced coefficients go with an isotropic phase function.
+        scattering: Some(Scattering { sigma_s: scaled(liquid.sigma_s), phase: PhaseDescription::Isotropic }),
+        ..base
+    })
 }
 
 /// `g`, or a phase function by name or as a table.

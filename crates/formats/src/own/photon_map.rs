@@ -6,7 +6,7 @@
 //! - `kernel`: "constant", "cone" or `{ cone = k }`, "gaussian", "epanechnikov";
 //!   `collection`: "sphere", "disc" or `{ disc = thickness }`.
 //! - `projection`: "none", "cells" or "objects"; `projection_cells`: their number along each axis.
-//! - `final_gather`, `gather_rays`, `exclude_direct`, `max_bounces`, `leaf_size`.
+//! - `final_gather`, `gather_rays`, `exclude_direct`, `exclude_single_scattering`, `max_bounces`, `leaf_size`.
 
 use super::document::Value;
 use super::field::Field;
@@ -42,6 +42,7 @@ pub(super) fn read(mut table: Table<'_>, metres: f64, settings: &mut PhotonMapSe
         final_gather,
         gather_rays,
         exclude_direct,
+        exclude_single_scattering,
         max_bounces,
     } = settings;
     let photons = [
@@ -61,7 +62,12 @@ pub(super) fn read(mut table: Table<'_>, metres: f64, settings: &mut PhotonMapSe
     for (key, count, most) in counts {
         *count = table.read(key, *count, |field| integer(field, 1, most))?;
     }
-    for (key, switch) in [("final_gather", final_gather), ("exclude_direct", exclude_direct)] {
+    let switches = [
+        ("final_gather", final_gather),
+        ("exclude_direct", exclude_direct),
+        ("exclude_single_scattering", exclude_single_scattering),
+    ];
+    for (key, switch) in switches {
         *switch = table.read(key, *switch, |field| field.boolean())?;
     }
     *nearest = table.read("nearest", *nearest, |field| read_nearest(field, *nearest))?;

@@ -2,8 +2,8 @@
 
 use crate::{load_mitsuba_text, load_toml_text};
 use hyaline_scene::{
-    Collection, DebugView, NearestPhotons, PhotonKernel, PhotonMapSettings, ProjectionMaps, SceneDescription,
-    SceneError, Settings,
+    Collection, DebugView, MarchStep, NearestPhotons, PhotonKernel, PhotonMapSettings, ProjectionMaps,
+    SceneDescription, SceneError, Settings,
 };
 use std::path::Path;
 
@@ -42,6 +42,7 @@ fn every_setting_is_read() {
         final_gather: false,
         gather_rays: 4,
         exclude_direct: true,
+        exclude_single_scattering: false,
         max_bounces: 20,
     };
     assert_eq!(load(text, &[]).unwrap().settings.photon_map, expected);
@@ -133,4 +134,24 @@ fn what_is_out_of_range_or_unknown_is_refused_where_it_stands() {
     }
     let error = overridden("settings.debug", "normal").unwrap_err().to_string();
     assert!(error.contains("did you mean 'normals'?"), "{error}");
+}
+
+#[test]
+fn marches_are_adaptive_or_a_length() {
+    let march = |value: &str| overridden("settings.march", value).map(|settings| settings.march);
+    assert_eq!(load(SCENE, &[]).unwrap().settings.march, MarchStep::Adaptive { stations: 4.0 });
+    assert_eq!(march("adaptive").unwrap(), MarchStep::Adaptive { stations: 4.0 });
+    assert_eq!(march("{ adaptive = 1 }").unwrap(), MarchStep::Adaptive { stations: 1.0 });
+    assert_eq!(march("2 cm").unwrap(), MarchStep::Fixed { length: 20.0 });
+    assert_eq!(march("0.5").unwrap(), MarchStep::Fixed { length: 0.5 });
+    for (value, message) in [
+        ("0", "`march` must be above 0"),
+        ("-1", "`march` must be above 0"),
+        ("{ adaptive = 0.5 }", "`adaptive` must be from 1 to 1000"),
+        ("{ adaptiv = 2 }", "did you mean 'adaptive'"),
+        ("adaptiv", "which is no length"),
+    ] {
+        let error = march(value).unwrap_err().to_string();
+        assert!(error.contains(message), "{value}: {error}");
+    }
 }

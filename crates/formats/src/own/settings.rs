@@ -1,14 +1,19 @@
 //! `[settings]`: how to render.
 //!
 //! `integrator` (whitted, path, photon-map, merging, debug), `passes`, `seed`, `sampler` (sobol, independent),
-//! `min_weight`, `max_depth`, `light_samples`, `debug` (what that integrator shows), and the table `photon_map`. Each
-//! has a default that the renderer chooses.
+//! `min_weight`, `max_depth`, `light_samples`, `march` ("adaptive", `{ adaptive = stations on a mean free path }` or the length of a
+//! step), `debug` (what that integrator shows), and the table `photon_map`. Each has a default that the renderer chooses.
 
+use super::document::Value;
+use super::field::Field;
 use super::photon_map;
 use super::table::Table;
 use crate::Result;
 use crate::limits::Limits;
-use hyaline_scene::{DebugView, SamplerKind, Settings};
+use hyaline_scene::{DebugView, MarchStep, SamplerKind, Settings};
+
+/// Most places on a mean free path where a march may ask for light.
+const MOST_STATIONS: f64 = 1000.0;
 
 const INTEGRATORS: [(&str, &str); 5] = [
     ("whitted", "whitted"),
@@ -58,9 +63,27 @@ pub(super) fn read(mut table: Table<'_>, metres: f64, settings: &mut Settings) -
     if let Some(samples) = table.read_some("light_samples", |field| field.count(1))? {
         settings.light_samples = Some(samples);
     }
+    settings.march = table.read("march", settings.march, |field| march(field, metres))?;
     settings.debug = table.read("debug", settings.debug, |field| field.choice(&DEBUG_VIEWS))?;
     if let Some(field) = table.take("photon_map") {
         photon_map::read(field.table("settings.photon_map")?, metres, &mut settings.photon_map)?;
     }
     table.finish()
+}
+
+/// "adaptive", `{ adaptive = stations on a mean free path }`, or the length of a step.
+fn march(field: Field<'_>, metres: f64) -> Result<MarchStep> {
+    if matches!(field.node.value, Value::Table(_)) {
+        let mut table = field.table("settings.march")?;
+        let stations = table.require("adaptive", "4")?.number_f32(Limits::between(1.0, MOST_STATIONS))?;
+        table.finish()?;
+        return Ok(MarchStep::Adaptive { stations });
+    }
+    match field.string() {
+        Ok("adaptive") => Ok(MarchStep::default()),
+        Ok(word) if word.starts_with(char::is_alphabetic) => Err(field
+            .error(format!("`{}` is '{word}', which is no length", field.key))
+            .with_remedy("write \"adaptive\", { adaptive = 4 }, or a length such as \"5 cm\"")),
+        _ => Ok(MarchStep::Fixed { length: field.length(metres, Limits::POSITIVE)? }),
+    }
 }

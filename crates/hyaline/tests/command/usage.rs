@@ -156,6 +156,7 @@ fn the_report_tells_what_each_photon_map_took() {
     for map in ["caustic", "global"] {
         assert!(maps[map]["stored"].as_u64().is_some_and(|stored| stored > 0), "{map}");
         assert!(maps[map]["bytes"].as_u64().is_some_and(|bytes| bytes > 0), "{map}");
+        assert!(maps[map]["look_ups"].as_u64().is_some_and(|look_ups| look_ups > 0), "{map}");
     }
     assert!(run.stderr.contains("photons kept: caustic "), "{}", run.stderr);
     let run = workshop.succeed("scene.toml --spp 1 --json -o a.png");

@@ -87,8 +87,8 @@ impl Flyer {
                 }
                 let density = grid.density_in_cube(line.origin + line.direction * t);
                 if density > 0.0 {
-                    let albedo = grid.albedo(ray.at(t));
-                    if self.collide(medium, density / rate, albedo, &mut flight, &mut rng) {
+                    let scattering = medium.sigma_s_at(ray.at(t), density) * (1.0 / rate);
+                    if self.collide(medium, density / rate, scattering, &mut flight, &mut rng) {
                         flight.scatters_at = Some(t);
                         return flight;
                     }
@@ -104,17 +104,17 @@ impl Flyer {
     /// One possible collision; returns whether the path scatters.
     ///
     /// - `density`: density over the rate of possible collisions.
+    /// - `scattering`: scattering coefficient over it.
     fn collide(
         &self,
         medium: &Medium,
         density: f32,
-        albedo: Option<Spectrum>,
+        scattering: Spectrum,
         flight: &mut Flight,
         rng: &mut Rng,
     ) -> bool {
         flight.emitted += flight.weight * medium.emission * density;
         let extinction = medium.sigma_t() * density;
-        let scattering = albedo.map_or(medium.sigma_s * density, |albedo| extinction * albedo);
         let passing = (Spectrum::ONE + extinction * -1.0).map(|p| p.max(0.0));
         let shares = self.shares(flight.weight);
         let (scatter, pass) = (weighted(&shares, scattering), weighted(&shares, passing));
@@ -146,14 +146,19 @@ pub(super) fn shares_of(carried: Spectrum, lanes: usize) -> [f32; 4] {
 }
 
 /// Possible collisions per unit of length where the density is 1.
-fn collision_rate(medium: &Medium, length: f32) -> f32 {
+pub(super) fn collision_rate(medium: &Medium, length: f32) -> f32 {
     let strongest = medium.sigma_t().to_lanes().into_iter().fold(0.0, f32::max);
     // What only shines has no collisions of its own: a few places along the way estimate its light.
     if medium.shines() { strongest.max(4.0 / length) } else { strongest }
 }
 
 /// Light of a homogeneous medium along a way, as it arrives at its start.
-fn emission_along(medium: &Medium, sigma_t: Spectrum, transmittance: Spectrum, distance: f32) -> Spectrum {
+pub(super) fn emission_along(
+    medium: &Medium,
+    sigma_t: Spectrum,
+    transmittance: Spectrum,
+    distance: f32,
+) -> Spectrum {
     if !medium.shines() {
         return Spectrum::ZERO;
     }

@@ -66,6 +66,11 @@ impl Grid {
         Some(trilinear(albedo.size, self.linear * p + self.offset, value, Spectrum::ZERO))
     }
 
+    /// Whether the albedo is told by place.
+    pub fn has_albedo(&self) -> bool {
+        self.albedo.is_some()
+    }
+
     /// Densities and their upper bounds along a line.
     pub(super) fn majorants(&self) -> &Majorants {
         &self.majorants

@@ -4,6 +4,7 @@ use super::*;
 use crate::{Medium, Phase};
 use hyaline_math::float::f64 as float;
 use hyaline_math::{DVec3, Ray, Transform, Vec2, Vec3};
+use hyaline_sampling::Rng;
 use hyaline_spectrum::Spectrum;
 use hyaline_testkit::{Moments, Random, integrate};
 use std::sync::Arc;
@@ -117,16 +118,9 @@ fn ratio_tracking_agrees_with_quadrature() {
     assert_eq!(transmittance(&medium, &Ray::new(Vec3::splat(9.0), Vec3::X), f32::INFINITY), Spectrum::ONE);
 }
 
-#[test]
-fn flights_through_a_grid_scatter_where_quadrature_says() {
-    let grid = lumpy();
-    let ray = ray();
-    let medium = Medium {
-        grid: Some(Arc::new(grid)),
-        emission: Spectrum::from_lanes([0.7, 0.2, 0.0, 0.0]),
-        ..medium()
-    };
-    let grid = medium.grid.clone().unwrap();
+/// What scatters, each time counted with its distance, what is emitted and what is left on the way along `ray`.
+fn by_quadrature(medium: &Medium) -> [[f64; 3]; 3] {
+    let (grid, ray) = (medium.grid.as_ref().unwrap(), ray());
     let steps = 4000;
     let dt = 5.0 / f64::from(steps);
     let (sigma_t, sigma_s) = (medium.sigma_t().to_lanes(), medium.sigma_s.to_lanes());
@@ -143,6 +137,19 @@ fn flights_through_a_grid_scatter_where_quadrature_says() {
         }
         expected[lane][2] = float::exp(-f64::from(sigma_t[lane]) * depth);
     }
+    expected
+}
+
+#[test]
+fn flights_through_a_grid_scatter_where_quadrature_says() {
+    let grid = lumpy();
+    let ray = ray();
+    let medium = Medium {
+        grid: Some(Arc::new(grid)),
+        emission: Spectrum::from_lanes([0.7, 0.2, 0.0, 0.0]),
+        ..medium()
+    };
+    let expected = by_quadrature(&medium);
     let mut random = Random::from_seed(4);
     let mut moments: [[Moments; 3]; 3] = std::array::from_fn(|_| std::array::from_fn(|_| Moments::new()));
     for _ in 0..60_000 {
@@ -198,5 +205,99 @@ fn densities_are_those_of_the_cells_at_their_centers_and_none_outside() {
     ] {
         let got = grid.density(Vec3::from_array(p));
         assert!((got - expected).abs() < 1e-5, "{p:?}: {got} is not {expected}");
+    }
+}
+
+/// Means of the sum over stations of weight × σ_s × t, of what is emitted and of what is left, lane by lane.
+fn marches(medium: &Medium, distance: f32, step: Step, throughput: Spectrum) -> [[Moments; 3]; 3] {
+    let mut moments: [[Moments; 3]; 3] = std::array::from_fn(|_| std::array::from_fn(|_| Moments::new()));
+    let mut rng = Rng::new(7, 0);
+    let marcher = Marcher { step, throughput, lanes: 3 };
+    for _ in 0..30_000 {
+        let mut sum = Spectrum::ZERO;
+        let marched = marcher.march(medium, &ray(), distance, &mut rng, &mut |station| {
+            sum += station.weight * station.sigma_s * station.t;
+        });
+        for (lane, moments) in moments.iter_mut().enumerate() {
+            for (moments, value) in moments.iter_mut().zip([sum, marched.emitted, marched.transmittance]) {
+                moments.push(f64::from(value.to_lanes()[lane]));
+            }
+        }
+    }
+    moments
+}
+
+const STEPS: [Step; 4] = [
+    Step::Adaptive { stations: 1.0 },
+    Step::Adaptive { stations: 5.0 },
+    Step::Fixed { length: 0.05 },
+    Step::Fixed { length: 0.3 },
+];
+
+#[test]
+fn marches_through_homogeneous_media_add_up_to_the_integral_in_every_lane() {
+    let medium = medium();
+    let (sigma_t, sigma_s) = (medium.sigma_t().to_lanes(), medium.sigma_s.to_lanes());
+    for distance in [0.8, f32::INFINITY] {
+        for throughput in [Spectrum::ONE, Spectrum::from_lanes([0.01, 1.0, 0.3, 0.0])] {
+            for step in STEPS {
+                let moments = marches(&medium, distance, step, throughput);
+                for lane in 0..3 {
+                    let (sigma, end) = (f64::from(sigma_t[lane]), f64::from(distance.min(60.0)));
+                    let expected =
+                        integrate(|t| f64::from(sigma_s[lane]) * float::exp(-sigma * t) * t, 0.0, end, 4000);
+                    // Equal steps of an endless way end at a depth of 16.
+                    let error = moments[lane][0].variance_of_mean().sqrt();
+                    let got = moments[lane][0].mean();
+                    assert!(
+                        (got - expected).abs() < 4.0 * error + 1e-4 * expected,
+                        "{step:?} {distance} lane {lane}: {got} is not {expected} ± {error}"
+                    );
+                    let left = moments[lane][2].mean();
+                    assert!((left - float::exp(-sigma * f64::from(distance))).abs() < 1e-6);
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn marches_through_a_grid_add_up_to_the_integral() {
+    let medium = Medium {
+        grid: Some(Arc::new(lumpy())),
+        emission: Spectrum::from_lanes([0.7, 0.2, 0.0, 0.0]),
+        ..medium()
+    };
+    let expected = by_quadrature(&medium);
+    // Equal steps take the density of one place for that of a step, whose depth is up to 0.9 and 5.4 here.
+    for (step, bias) in STEPS.into_iter().zip([0.0, 0.0, 0.015, 0.15]) {
+        let moments = marches(&medium, 5.0, step, Spectrum::from_lanes([1.0, 0.5, 0.8, 0.0]));
+        for lane in 0..3 {
+            for (kind, what) in ["scattered", "emitted", "arrived"].into_iter().enumerate() {
+                let (got, error) =
+                    (moments[lane][kind].mean(), moments[lane][kind].variance_of_mean().sqrt());
+                let expected = expected[lane][kind];
+                assert!(
+                    (got - expected).abs() < 4.0 * error + 5e-4 + bias * expected,
+                    "{what} in lane {lane}, {step:?}: {got} is not {expected}"
+                );
+            }
+        }
+    }
+}
+
+#[test]
+fn marches_end_where_a_lane_is_clear_and_the_way_endless() {
+    let sigma_s = Spectrum::from_lanes([1.0, 0.0, 1e-6, 0.0]);
+    let medium = Medium { sigma_a: Spectrum::ZERO, sigma_s, ..medium() };
+    for step in STEPS {
+        let mut stations = 0;
+        let marcher = Marcher { step, throughput: Spectrum::ONE, lanes: 3 };
+        let marched = marcher.march(&medium, &ray(), f32::INFINITY, &mut Rng::new(1, 2), &mut |station| {
+            assert!(station.weight.is_finite() && station.t.is_finite());
+            stations += 1;
+        });
+        assert!(stations < 5000, "{stations}");
+        assert_eq!(marched.transmittance.to_lanes()[..3], [0.0, 1.0, 0.0]);
     }
 }

@@ -7,8 +7,8 @@ use hyaline_math::{Ray, Vec3, float};
 use hyaline_sampling::Rng;
 use hyaline_spectrum::Spectrum;
 
-/// Below this fraction of light left, ratio tracking decides by roulette whether to go on.
-const FAINT: f32 = 0.05;
+/// Below this fraction of light left, roulette decides whether to go on.
+pub(super) const FAINT: f32 = 0.05;
 
 /// Fraction of light left after a way: exact in a homogeneous medium, elsewhere an unbiased estimate, 0…1.
 ///

@@ -46,6 +46,8 @@ pub struct RenderSettings {
     pub min_weight: f32,
     /// `whitted`: shadow rays per area light and hit, ≥ 1.
     pub light_samples: u32,
+    /// `whitted`, `photon-map`: how the eye marches through media that scatter.
+    pub march: hyaline_scene::MarchStep,
     /// `photon-map`: what its stages do.
     pub photon_map: hyaline_scene::PhotonMapSettings,
     /// `debug`: what it shows.
@@ -60,6 +62,7 @@ impl Default for RenderSettings {
             max_depth: None,
             min_weight: 1.0 / 512.0,
             light_samples: 1,
+            march: hyaline_scene::MarchStep::default(),
             photon_map: hyaline_scene::PhotonMapSettings::default(),
             debug: hyaline_scene::DebugView::default(),
         }

@@ -5,7 +5,9 @@
 //!    ambient term; a polished coat is traced as in 1 besides. Glass throws an opaque shadow here, unless its finish has
 //!    straight shadows: that is the model, `path` does it right.
 //! 3. At a glossy surface trace one ray drawn from its lobe, and add the highlights of lamps too small to be hit.
-//! 4. A branch ends when the product of its weights falls below `min_weight`, or at the depth limit.
+//! 4. Where media scatter, rays march: at each stop the light of every lamp is scattered once toward the eye. Light that is
+//!    scattered twice is not shown.
+//! 5. A branch ends when the product of its weights falls below `min_weight`, or at the depth limit.
 //!
 //! Source: Whitted, CACM 23(6), 1980; Suffern, Ray Tracing from the Ground Up, ch. 24-28.
 
@@ -13,6 +15,8 @@ use super::per_pixel::PerPixel;
 use super::{Integrator, Prepared, RenderSettings, View};
 use crate::direct::{self, DirectLight};
 use crate::first_hit;
+use crate::in_volume::VolumeLight;
+use crate::march::Found;
 use crate::stats::Stats;
 use crate::walk::{self, Event, Vertex};
 use hyaline_film::PixelSample;
@@ -60,7 +64,7 @@ fn radiance(
     first: Option<&mut PixelSample>,
 ) -> Spectrum {
     let branch = Branch { weight: 1.0, depth: 0, visible: mask::CAMERA };
-    Tracer { world, settings, stats, first }.trace(ray, set, branch, *sampler)
+    Tracer { world, settings, stats, first, found: Found::default() }.trace(ray, set, branch, *sampler)
 }
 
 /// How far a branch has come.
@@ -79,14 +83,21 @@ struct Tracer<'a> {
     settings: &'a RenderSettings,
     stats: &'a mut Stats,
     first: Option<&'a mut PixelSample>,
+    found: Found,
 }
 
 impl Tracer<'_> {
     /// Radiance that arrives along `ray`, which starts inside `set`.
-    fn trace(&mut self, ray: Ray, mut set: MediumSet, branch: Branch, sampler: Sampler) -> Spectrum {
-        let vertex = match walk::advance(self.world, &ray, branch.visible, &mut set, self.stats) {
+    fn trace(&mut self, ray: Ray, mut set: MediumSet, branch: Branch, mut sampler: Sampler) -> Spectrum {
+        let (event, scattered) = if self.world.has_volumes {
+            self.march(&ray, &mut set, branch, &mut sampler)
+        } else {
+            (walk::advance(self.world, &ray, branch.visible, &mut set, self.stats), Spectrum::ZERO)
+        };
+        let vertex = match event {
             Event::Sky { transmittance } => {
-                return transmittance * direct::sky_radiance(self.world, &ray, None, branch.visible);
+                let sky = direct::sky_radiance(self.world, &ray, None, branch.visible);
+                return scattered + transmittance * sky;
             }
             Event::Surface(vertex) => vertex,
         };
@@ -94,7 +105,36 @@ impl Tracer<'_> {
             first_hit::record(sample, &vertex, &ray);
         }
         let weight = branch.weight * vertex.transmittance.max_lane(self.world.lanes);
-        vertex.transmittance * self.shade(&vertex, &ray, &set, Branch { weight, ..branch }, sampler)
+        if weight < self.settings.min_weight && self.world.has_volumes {
+            self.stats.branches_cut += 1;
+            return scattered;
+        }
+        scattered
+            + vertex.transmittance * self.shade(&vertex, &ray, &set, Branch { weight, ..branch }, sampler)
+    }
+
+    /// To the next surface; and the light that media on the way send, and scatter from every lamp, against `ray`.
+    fn march(
+        &mut self,
+        ray: &Ray,
+        set: &mut MediumSet,
+        branch: Branch,
+        sampler: &mut Sampler,
+    ) -> (Event, Spectrum) {
+        let (world, way) = (self.world, (ray, branch.visible));
+        let event = self.found.march(world, self.settings, way, set, Spectrum::ONE, sampler, self.stats);
+        let mut light = self.found.emitted;
+        for (stop, set) in self.found.stops() {
+            let place = VolumeLight { world, p: stop.p, medium: stop.medium, wo: -ray.direction, set };
+            for lamp in world.lights.lights() {
+                let count = if direct::is_delta(lamp) { 1 } else { self.settings.light_samples };
+                let factor = stop.weight * stop.sigma_s * (1.0 / count as f32);
+                for _ in 0..count {
+                    light += factor * place.from_light(lamp, sampler.next_2d(), |_, _| 1.0, self.stats);
+                }
+            }
+        }
+        (event, light)
     }
 
     /// Radiance that leaves `vertex` against `ray`.

@@ -7,6 +7,7 @@
 //! Photons that cannot contribute (wrong kind, wrong side of the surface) are left out before any is counted, or they
 //! would shrink the radius: on both sides of a thin wall each side is estimated as if the other were not there.
 
+use super::clip::Clip;
 use super::kernel::Kernel;
 use super::record::{PackedPhoton, Photon, PhotonKind};
 use super::tree::{Disc, Nearest, PointTree, Region};
@@ -116,18 +117,31 @@ impl Estimate {
     /// Photons in media hold what leaves the collision ([`Photon::flux`]), so no coefficient of the medium is needed.
     ///
     /// - `phase`: phase function toward the eye, sr⁻¹, by the direction in which a photon traveled.
+    /// - `clip`: what of a ball of that radius about `p` counts.
     pub fn volume(
         &self,
         map: &PhotonMap,
         p: Vec3,
-        phase: impl Fn(Vec3) -> Spectrum,
+        phase: impl Fn(Vec3) -> f32,
+        clip: impl FnOnce(f32) -> Clip,
         scratch: &mut Nearest,
     ) -> Gathered {
         let region = Region { center: p, radius: self.max_radius, disc: None };
-        let ball = self.collect(map, &region, 0.0, |_| true, scratch);
-        self.sum(map, scratch, ball, self.kernel.ball_norm(ball.radius2), |photon| {
-            phase(photon.direction()) * photon.flux()
-        })
+        let Collected { radius2, found } = self.collect(map, &region, 0.0, |_| true, scratch);
+        let radius = radius2.sqrt();
+        if scratch.is_empty() {
+            return Gathered { value: Spectrum::ZERO, found, radius };
+        }
+        let clip = clip(radius);
+        let mut value = Spectrum::ZERO;
+        for (distance2, i) in scratch.iter() {
+            if clip.holds(map.position(i)) {
+                let photon = map.payload(i);
+                let weight = phase(photon.direction()) * self.kernel.weight(distance2, radius2);
+                value += photon.flux() * weight;
+            }
+        }
+        Gathered { value: value * (self.kernel.ball_norm(radius2) / clip.share), found, radius }
     }
 
     fn surface_region(&self, p: Vec3, normal: Vec3) -> Region {

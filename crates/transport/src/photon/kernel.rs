@@ -83,6 +83,20 @@ impl Kernel {
         1.0 / (self.ball_mean() * (4.0 / 3.0) * PI * (r2 * r2.sqrt()))
     }
 
+    /// Share of the weight in a ball that lies within a fraction of its radius, 0…1.
+    ///
+    /// - `x`: the fraction, 0…1.
+    pub fn ball_share(self, x: f32) -> f32 {
+        // ∫ w 3 s² ds from 0 to x.
+        let sum = match self {
+            Self::Constant => x * x * x,
+            Self::Cone { k } => x * x * x * (1.0 - 0.75 * x / k),
+            Self::Gaussian => gaussian_sum(x),
+            Self::Epanechnikov => x * x * x * (1.0 - 0.6 * x * x),
+        };
+        sum / self.ball_mean()
+    }
+
     /// Mean weight over a disc.
     fn disc_mean(self) -> f32 {
         match self {
@@ -102,6 +116,16 @@ impl Kernel {
             Self::Epanechnikov => 0.4,
         }
     }
+}
+
+/// ∫ w 3 s² ds from 0 to x of the Gaussian filter, by the series of its exponential.
+fn gaussian_sum(x: f32) -> f32 {
+    let (mut factor, mut sum) = (1.0, 0.0);
+    for n in 0..10 {
+        sum += factor * 3.0 / (2 * n + 3) as f32;
+        factor *= -0.5 * GAUSSIAN_B * x * x / (n + 1) as f32;
+    }
+    x * x * x * GAUSSIAN_A * (sum - GAUSSIAN_EDGE) / (1.0 - GAUSSIAN_EDGE)
 }
 
 #[cfg(test)]
@@ -129,6 +153,10 @@ mod tests {
                 let ball = integrate(|d| 4.0 * pi * d * d * weight(d), 0.0, r, 200);
                 assert!((disc * f64::from(kernel.disc_norm(r2)) - 1.0).abs() < 1e-5, "{kernel:?} {r}");
                 assert!((ball * f64::from(kernel.ball_norm(r2)) - 1.0).abs() < 1e-5, "{kernel:?} {r}");
+                let inner = integrate(|d| 4.0 * pi * d * d * weight(d), 0.0, 0.6 * r, 200);
+                let share = f64::from(kernel.ball_share(0.6));
+                assert!((inner / ball - share).abs() < 1e-5, "{kernel:?} {r}: {share}");
+                assert!((kernel.ball_share(1.0) - 1.0).abs() < 1e-5, "{kernel:?}");
             }
         }
     }

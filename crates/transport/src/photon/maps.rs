@@ -1,12 +1,16 @@
 //! The photon maps of a render: traced once, looked up by every pass.
 
+use super::clip::Clip;
 use super::emission::PhotonEmitter;
 use super::gather::{Estimate, PhotonMap};
 use super::record::{Photon, PhotonKind};
+use super::stopwatch::TotalTime;
 use super::trace::{MapKind, PhotonTracer};
 use super::tree::Nearest;
+use super::volume::VolumeMaps;
 use crate::RenderSettings;
 use crate::stats::Stats;
+use hyaline_scattering::Medium;
 use hyaline_scene::{PhotonMapSettings, ProjectionMaps};
 use hyaline_world::World;
 use std::sync::atomic::AtomicBool;
@@ -19,6 +23,17 @@ const PROBES: usize = 1024;
 /// bounded disc is better than one of many from far around.
 const SPARSE: f32 = 2.0;
 
+/// Photons that the caustic map's estimate takes for each that the estimate of what caustics throw takes: that light is
+/// dim, and wide estimates would carry it into shadows where it is all that there is.
+const CAUSTIC_PER_REBOUND: u32 = 3;
+
+/// Photons that the volume map keeps at most for each that is emitted, about: where each scatters oftener, as in milk, one
+/// in so many is kept, with the power of all.
+const KEPT_PER_VOLUME_PHOTON: f32 = 4.0;
+
+/// Photons that are traced to learn how often they scatter.
+const PILOT: u32 = 4096;
+
 /// The maps that `photon-map` looks up.
 pub struct PhotonMaps {
     /// Light over specular surfaces alone.
@@ -27,6 +42,8 @@ pub struct PhotonMaps {
     pub rebound: PhotonMap,
     /// All light, or all that is neither direct nor caustic: see `holds_all`.
     pub global: PhotonMap,
+    /// Light that media scatter; see `PhotonMapSettings::exclude_single_scattering` for what comes straight.
+    pub volume: VolumeMaps,
     /// Whether the global map holds direct light and caustics, too.
     pub holds_all: bool,
     /// How the caustic map is looked up.
@@ -35,8 +52,21 @@ pub struct PhotonMaps {
     pub rebound_estimate: Estimate,
     /// How the global map is looked up.
     pub global_estimate: Estimate,
-    /// What was traced and kept.
+    /// What was traced and kept; without look-ups, see `statistics_so_far`.
     pub statistics: PhotonStatistics,
+    /// Time spent on look-ups.
+    pub look_ups: LookUpTimes,
+}
+
+/// Time spent on look-ups, by map; for reports alone.
+#[derive(Debug, Default)]
+pub struct LookUpTimes {
+    /// Of the caustic map and of what caustics throw.
+    pub caustic: TotalTime,
+    /// Of the global map.
+    pub global: TotalTime,
+    /// Of the volume map.
+    pub volume: TotalTime,
 }
 
 /// What one map took.
@@ -52,6 +82,10 @@ pub struct MapStatistics {
     pub tracing: Duration,
     /// Time to build the map; for reports alone.
     pub building: Duration,
+    /// Estimates made from the map so far.
+    pub look_ups: u64,
+    /// Time that they took, all threads together; for reports alone.
+    pub looking_up: Duration,
 }
 
 /// What the photon stage did.
@@ -63,6 +97,8 @@ pub struct PhotonStatistics {
     pub rebound: MapStatistics,
     /// The global map.
     pub global: MapStatistics,
+    /// The volume map, all media together.
+    pub volume: MapStatistics,
 }
 
 impl PhotonMaps {
@@ -75,15 +111,44 @@ impl PhotonMaps {
         let (caustic, rebound) = caustics.split(|photon| photon.kind == PhotonKind::Caustic);
         let [caustic, rebound, global] =
             [caustic, rebound, Traced::new(world, settings, kind, cancel, stats)].map(|t| t.build(asked));
+        let volume = volume_maps(world, settings, cancel, stats);
         Self {
             caustic_estimate: estimate(asked, &caustic.0, asked.nearest.caustic),
-            rebound_estimate: estimate(asked, &rebound.0, asked.nearest.caustic),
+            rebound_estimate: estimate(
+                asked,
+                &rebound.0,
+                (asked.nearest.caustic / CAUSTIC_PER_REBOUND).max(2),
+            ),
             global_estimate: estimate(asked, &global.0, asked.nearest.global),
-            statistics: PhotonStatistics { caustic: caustic.1, rebound: rebound.1, global: global.1 },
+            statistics: PhotonStatistics {
+                caustic: caustic.1,
+                rebound: rebound.1,
+                global: global.1,
+                volume: volume.1,
+            },
             caustic: caustic.0,
             rebound: rebound.0,
             global: global.0,
+            volume: volume.0,
             holds_all,
+            look_ups: LookUpTimes::default(),
+        }
+    }
+
+    /// What was traced, kept and looked up so far.
+    pub fn statistics_so_far(&self) -> PhotonStatistics {
+        let LookUpTimes { caustic, global, volume } = &self.look_ups;
+        let with = |map: MapStatistics, total: &TotalTime| MapStatistics {
+            look_ups: total.calls(),
+            looking_up: total.time(),
+            ..map
+        };
+        let told = self.statistics;
+        PhotonStatistics {
+            caustic: with(told.caustic, caustic),
+            global: with(told.global, global),
+            volume: with(told.volume, volume),
+            ..told
         }
     }
 }
@@ -106,13 +171,11 @@ impl Traced {
         let (asked, begun) = (&settings.photon_map, Instant::now());
         let (count, projection) = match map {
             MapKind::Caustic => (asked.caustic_photons, asked.projection),
-            MapKind::Global | MapKind::Indirect => (asked.global_photons, ProjectionMaps::None),
+            _ => (asked.global_photons, ProjectionMaps::None),
         };
         let emitter = PhotonEmitter::new(world, projection, asked.projection_cells);
-        // Where no light reaches anything specular there are no caustics.
-        let emitted = if emitter.fraction() > 0.0 { count } else { 0 };
-        let (seed, max_bounces) = (settings.seed, max_bounces(settings, map));
-        let tracer = PhotonTracer { world, emitter: &emitter, map, seed, max_bounces };
+        let tracer = tracer(world, settings, &emitter, map);
+        let emitted = worth_emitting(&emitter, count);
         Self { photons: tracer.trace(emitted, cancel, stats), emitted, time: begun.elapsed() }
     }
 
@@ -134,48 +197,113 @@ impl Traced {
             bytes: map.bytes() as u64,
             tracing: self.time,
             building: begun.elapsed(),
+            ..MapStatistics::default()
         };
         (map, statistics)
     }
 }
 
-/// Bounces of photons: with those of the eye they make no longer paths than asked for, but where rays gather more than
-/// once.
+/// Photons to emit of those asked for: where no light reaches anything specular there are no caustics.
+fn worth_emitting(emitter: &PhotonEmitter<'_>, asked: u32) -> u32 {
+    if emitter.fraction() > 0.0 { asked } else { 0 }
+}
+
+fn tracer<'w>(
+    world: &'w World,
+    settings: &RenderSettings,
+    emitter: &'w PhotonEmitter<'w>,
+    map: MapKind,
+) -> PhotonTracer<'w> {
+    PhotonTracer { world, emitter, map, seed: settings.seed, max_bounces: max_bounces(settings, map) }
+}
+
+/// Traces and builds the maps of media that scatter.
+fn volume_maps(
+    world: &World,
+    settings: &RenderSettings,
+    cancel: &AtomicBool,
+    stats: &mut Stats,
+) -> (VolumeMaps, MapStatistics) {
+    if !world.media.iter().any(Medium::scatters) {
+        return Default::default();
+    }
+    let (asked, begun) = (&settings.photon_map, Instant::now());
+    let emitter = PhotonEmitter::new(world, ProjectionMaps::None, asked.projection_cells);
+    let emitted = worth_emitting(&emitter, asked.volume_photons);
+    let trace = |share: f32, count: u32, stats: &mut Stats| {
+        let map = MapKind::Volume { with_direct: !asked.exclude_single_scattering, share };
+        tracer(world, settings, &emitter, map).trace_in_media(count, cancel, stats)
+    };
+    let pilot = emitted.min(PILOT);
+    let kept = trace(1.0, pilot, &mut Stats::default()).len() as f32 / pilot.max(1) as f32;
+    let share = if kept > KEPT_PER_VOLUME_PHOTON { KEPT_PER_VOLUME_PHOTON / kept } else { 1.0 };
+    let photons = trace(share, emitted, stats);
+    let (tracing, begun) = (begun.elapsed(), Instant::now());
+    let maps = VolumeMaps::new(&photons, asked.leaf_size, |map| volume_estimate(asked, map));
+    let statistics = MapStatistics {
+        emitted: u64::from(emitted),
+        stored: photons.len() as u64,
+        bytes: maps.iter().map(|volume| volume.map.bytes() as u64).sum(),
+        tracing,
+        building: begun.elapsed(),
+        ..MapStatistics::default()
+    };
+    (maps, statistics)
+}
+
+/// Bounces of photons: with those of the eye they make no longer paths than asked for, but for where rays gather more than
+/// once, or end in a medium.
 fn max_bounces(settings: &RenderSettings, map: MapKind) -> u32 {
     let by_eye = match map {
         MapKind::Global | MapKind::Indirect if settings.photon_map.final_gather => 2,
-        MapKind::Caustic | MapKind::Global | MapKind::Indirect => 1,
+        _ => 1,
     };
     let by_depth = settings.max_depth.map_or(u32::MAX, |limit| limit.saturating_sub(by_eye));
     settings.photon_map.max_bounces.min(by_depth)
 }
 
-/// How a map is looked up.
+/// How a map of surfaces is looked up.
 fn estimate(asked: &PhotonMapSettings, map: &PhotonMap, nearest: u32) -> Estimate {
-    let nearest = nearest as usize;
+    bounded(asked, map, nearest, |estimate, photon, scratch| {
+        estimate.irradiance(map, photon.p, -photon.direction, |_| true, scratch).radius
+    })
+}
+
+/// How the map of a medium is looked up.
+fn volume_estimate(asked: &PhotonMapSettings, map: &PhotonMap) -> Estimate {
+    bounded(asked, map, asked.nearest.volume, |estimate, photon, scratch| {
+        estimate.volume(map, photon.p, |_| 1.0, Clip::whole, scratch).radius
+    })
+}
+
+/// An estimate with a largest radius that fits the map: a multiple of the median radius that look-ups have at its own
+/// photons.
+///
+/// - `radius`: that of a look-up at a photon.
+fn bounded(
+    asked: &PhotonMapSettings,
+    map: &PhotonMap,
+    nearest: u32,
+    radius: impl Fn(&Estimate, Photon, &mut Nearest) -> f32,
+) -> Estimate {
     let unbounded = Estimate {
         kernel: asked.kernel.into(),
-        nearest,
+        nearest: nearest as usize,
         max_radius: f32::INFINITY,
         collection: asked.collection,
     };
-    let max_radius = asked.max_radius.map_or_else(|| bounded_radius(map, unbounded), |radius| radius as f32);
-    Estimate { max_radius, ..unbounded }
-}
-
-/// A largest radius that fits the map: a multiple of the median radius that look-ups have at its own photons.
-fn bounded_radius(map: &PhotonMap, unbounded: Estimate) -> f32 {
+    if let Some(max_radius) = asked.max_radius {
+        return Estimate { max_radius: max_radius as f32, ..unbounded };
+    }
     // With few photons, all of them are near: an unbounded radius would spread them over infinity.
-    let estimate = Estimate { nearest: unbounded.nearest.min(map.len() / 2), ..unbounded };
-    let probes = map.len().min(PROBES);
-    let mut scratch = Nearest::default();
+    let probed = Estimate { nearest: unbounded.nearest.min(map.len() / 2), ..unbounded };
+    let (probes, mut scratch) = (map.len().min(PROBES), Nearest::default());
     let mut radii: Vec<f32> = (0..probes)
-        .map(|probe| {
-            let photon = map.photon((probe * map.len() / probes) as u32);
-            estimate.irradiance(map, photon.p, -photon.direction, |_| true, &mut scratch).radius
-        })
+        .map(|probe| map.photon((probe * map.len() / probes) as u32))
+        .map(|photon| radius(&probed, photon, &mut scratch))
         .filter(|radius| radius.is_finite())
         .collect();
     radii.sort_unstable_by(f32::total_cmp);
-    radii.get(radii.len() / 2).map_or(f32::MAX.sqrt(), |radius| SPARSE * radius)
+    let max_radius = radii.get(radii.len() / 2).map_or(f32::MAX.sqrt(), |radius| SPARSE * radius);
+    Estimate { max_radius, ..unbounded }
 }

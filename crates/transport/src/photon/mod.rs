@@ -1,5 +1,6 @@
 //! Photons: how they start, travel, are kept, and are found again.
 
+mod clip;
 pub mod emission;
 pub mod gather;
 pub mod kernel;
@@ -8,9 +9,12 @@ mod projection;
 pub mod radius;
 pub mod record;
 pub mod specular;
+pub mod stopwatch;
 pub mod trace;
 pub mod tree;
+pub mod volume;
 
+pub use clip::Clip;
 pub use emission::{PhotonEmitter, PhotonStart};
 pub use gather::{Estimate, Gathered, PhotonMap};
 pub use kernel::Kernel;
@@ -18,3 +22,4 @@ pub use maps::{MapStatistics, PhotonMaps, PhotonStatistics};
 pub use record::{PackedPhoton, Photon, PhotonKind};
 pub use trace::{MapKind, PhotonTracer};
 pub use tree::{Accept, All, Disc, Nearest, PointTree, Region};
+pub use volume::{VolumeMap, VolumeMaps};

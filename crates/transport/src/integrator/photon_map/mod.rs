@@ -2,6 +2,7 @@
 //!
 //! 1. Photon stage, in `prepare`: a caustic map of light that comes over specular surfaces alone, from photons
 //!    emitted toward those, and of what it throws on other surfaces; a global map of all light.
+//!    With media that scatter also a map of what they scatter.
 //! 2. Eye stage, in every pass: see `eye`.
 //!
 //! The maps are the same in all passes, so their noise stays however many passes are made; it shows as blur and
@@ -56,7 +57,7 @@ impl Prepared for EyeStage<'_> {
     }
 
     fn photon_statistics(&self) -> Option<PhotonStatistics> {
-        Some(self.maps.statistics)
+        Some(self.maps.statistics_so_far())
     }
 }
 
@@ -73,5 +74,6 @@ impl Pass for EyePass<'_> {
         camera.render_tile(tile, samples, |ray, set, sampler, sample| {
             eye.follow(Strand::from_camera(ray, set), sampler, Some(sample))
         });
+        eye.tell_times();
     }
 }

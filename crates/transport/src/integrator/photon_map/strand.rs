@@ -1,17 +1,22 @@
 //! A path of the eye, from the camera or from a place that gathers.
 
 use super::eye::Role;
+use crate::RenderSettings;
 use crate::direct;
+use crate::march::Found;
 use crate::photon::specular::is_specular_event;
 use crate::roulette::{PATIENCE_WITH_SHADING_NORMALS, eye_survival};
 use crate::stats::Stats;
-use crate::walk::{self, Event, Vertex};
+use crate::walk::{self, Event, Flown, Vertex};
 use hyaline_math::{Ray, Vec3};
 use hyaline_sampling::Sampler;
 use hyaline_scattering::bsdf::BsdfSample;
 use hyaline_scattering::{MediumSet, Transport};
 use hyaline_spectrum::Spectrum;
 use hyaline_world::{World, mask};
+
+/// What is left of a strand behind a medium below which roulette decides whether it goes on.
+const FAINT: f32 = 1e-3;
 
 /// Where a strand comes from, over specular surfaces or straight.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -78,9 +83,36 @@ impl Strand {
         }
     }
 
-    /// Walks to the next surface; the light of the surroundings or of the surface is added to `light`.
-    pub(super) fn walk(&mut self, world: &World, light: &mut Spectrum, stats: &mut Stats) -> Option<Vertex> {
-        match walk::advance(world, &self.ray, self.visible, &mut self.set, stats) {
+    /// Walks to the next surface, or from a place that gathers to a particle that scatters before.
+    ///
+    /// - `found`: receives where a ray of the camera asks media for light.
+    pub(super) fn fly(
+        &mut self,
+        world: &World,
+        settings: &RenderSettings,
+        found: &mut Found,
+        sampler: &mut Sampler,
+        stats: &mut Stats,
+    ) -> Flown {
+        let (ray, visible, set, throughput) = (&self.ray, self.visible, &mut self.set, self.throughput);
+        match self.origin {
+            _ if !world.has_volumes => Flown::Arrived(walk::advance(world, ray, visible, set, stats)),
+            Origin::Camera => {
+                Flown::Arrived(found.march(world, settings, (ray, visible), set, throughput, sampler, stats))
+            }
+            Origin::Gather { .. } => {
+                let (flown, emitted) = walk::fly(world, ray, visible, set, throughput, sampler, stats);
+                found.emitted = emitted;
+                flown
+            }
+            // Where light was looked up, all that media scatter was, too.
+            Origin::LookUp => Flown::Arrived(walk::advance(world, ray, visible, set, stats)),
+        }
+    }
+
+    /// Arrives where a walk ends: at a surface or nowhere; its light is added to `light`.
+    pub(super) fn arrive(&mut self, world: &World, event: Event, light: &mut Spectrum) -> Option<Vertex> {
+        match event {
             Event::Sky { transmittance } => {
                 if self.sees_lights() {
                     let sky = direct::sky_radiance(world, &self.ray, self.sampled, self.visible);
@@ -103,6 +135,16 @@ impl Strand {
                 (self.origin != Origin::LookUp).then_some(vertex)
             }
         }
+    }
+
+    /// Roulette where media have left hardly anything; returns whether the strand goes on.
+    pub(super) fn survives_fog(&mut self, lanes: usize, sampler: &mut Sampler) -> bool {
+        let left = self.throughput.max_lane(lanes) / self.scale;
+        if left >= FAINT {
+            return true;
+        }
+        self.throughput *= FAINT / left;
+        sampler.next_1d() * FAINT < left
     }
 
     /// Whether a light that the strand meets counts. Light over specular surfaces onto one that gathers is a caustic:
