@@ -1,102 +1,54 @@
 //! No ray passes through a closed mesh, however exactly it is aimed at a vertex or an edge, at any scale.
 
-use hyaline_geometry::bvh::{MeshBvh, SimdLevel};
-use hyaline_geometry::mesh::{Mesh, MeshData, generate};
-use hyaline_geometry::{Aggregate, Item, ItemGeometry};
-use hyaline_math::{DVec3, Ray, Transform, Vec3};
+mod closed;
+
+use closed::{Closed, SCALES};
+use hyaline_geometry::bvh::SimdLevel;
+use hyaline_geometry::mesh::MeshData;
+use hyaline_math::{Ray, Vec3};
 use hyaline_testkit::Random;
-use std::sync::Arc;
 
-/// A closed mesh in a scene, with a point that is inside it.
-struct Closed {
-    scene: Aggregate,
-    mesh: Arc<MeshBvh>,
-    transform: Option<Transform>,
-    inside: Vec3,
-    size: f32,
-}
-
-impl Closed {
-    fn new(data: MeshData, inside: Vec3, size: f32, transform: Option<Transform>) -> Self {
-        let mesh = Arc::new(MeshBvh::new(Mesh::new(data).unwrap()));
-        assert!(mesh.mesh().topology().is_closed());
-        let item = Item { geometry: ItemGeometry::Mesh { mesh: mesh.clone(), transform }, mask: 1 };
-        let inside = transform.map_or(inside, |t| t.point(inside.as_dvec3()).as_vec3());
-        Self { scene: Aggregate::build(vec![item]), mesh, transform, inside, size }
-    }
-
-    /// A vertex or the middle of an edge of some face.
-    fn target(&self, random: &mut Random) -> Vec3 {
-        let corners = self.mesh.mesh().corners((random.bits() % self.mesh.mesh().face_count() as u64) as u32);
-        let [a, b] = [corners[random.bits() as usize % 3], corners[random.bits() as usize % 3]];
-        let p = if a == b { a } else { 0.5 * (a + b) };
-        self.transform.map_or(p, |t| t.point(p.as_dvec3()).as_vec3())
-    }
-
-    fn crossings(&self, ray: &Ray) -> usize {
-        let mut count = 0;
-        self.scene.crossings(ray, 1, &mut |_| count += 1);
-        count
-    }
-}
-
-fn meshes(scale: f32) -> Vec<Closed> {
-    let center = Vec3::new(0.37, -1.2, 0.55) * scale;
-    let knot_core = center + Vec3::X * (0.75 * scale);
-    let uneven = Transform::rotate(DVec3::new(1.0, -1.0, 0.4), 1.1)
-        .unwrap()
-        .after(&Transform::scale(DVec3::new(0.4, 2.0, -0.9)).unwrap());
-    vec![
-        Closed::new(generate::uv_sphere(center, scale, 600), center, scale, None),
-        Closed::new(generate::icosphere(center, scale, 5000), center, scale, None),
-        Closed::new(generate::displaced_sphere(center, scale, 20_000, 0.1), center, scale, None),
-        Closed::new(generate::torus_knot(center, scale, 20_000, 0.2), knot_core, scale, None),
-        Closed::new(generate::icosphere(center, scale, 500), center, scale, Some(uneven)),
-    ]
-}
+/// Rays for each mesh at each scale; `examples/watertight.rs` traces many more.
+const RAYS: usize = 20_000;
 
 #[test]
 fn rays_at_vertices_and_edges_never_pass_from_inside() {
     let mut random = Random::from_seed(31);
-    let mut leaks = 0;
-    let mut rays = 0;
-    for scale in [1e-3, 0.1, 1.0, 10.0, 1e4] {
-        for closed in meshes(scale) {
-            for _ in 0..24_000 {
-                let jitter = Vec3::from_array(random.direction().map(|x| x as f32)) * (0.01 * closed.size);
-                let origin = closed.inside + jitter * random.uniform_f32();
-                let direction = (closed.target(&mut random) - origin).normalize();
-                let ray = Ray::new(origin, direction);
-                rays += 1;
-                leaks += usize::from(closed.scene.closest(&ray, 1).is_none());
-                leaks += usize::from(!closed.scene.occluded(&ray, 1));
-                leaks += usize::from(closed.crossings(&ray) % 2 == 0);
-            }
+    for closed in SCALES.into_iter().flat_map(Closed::all) {
+        for _ in 0..RAYS {
+            let ray = closed.ray_from_inside(&mut random);
+            assert!(!closed.leaks_from_inside(&ray), "{ray:?}");
         }
     }
-    assert_eq!(leaks, 0, "of {rays} rays");
-    assert!(rays >= 600_000);
 }
 
 #[test]
 fn rays_at_vertices_and_edges_enter_as_often_as_they_leave_from_outside() {
     let mut random = Random::from_seed(32);
-    let mut leaks = 0;
-    let mut rays = 0;
-    for scale in [1e-3, 0.1, 1.0, 10.0, 1e4] {
-        for closed in meshes(scale) {
-            let radius = 3.0 * closed.scene.bounds().radius();
-            let center = closed.scene.bounds().center();
-            for _ in 0..24_000 {
-                let origin = center + Vec3::from_array(random.direction().map(|x| x as f32)) * radius;
-                let direction = (closed.target(&mut random) - origin).normalize();
-                rays += 1;
-                leaks += closed.crossings(&Ray::new(origin, direction)) % 2;
-            }
+    for closed in SCALES.into_iter().flat_map(Closed::all) {
+        for _ in 0..RAYS {
+            let ray = closed.ray_from_outside(&mut random);
+            assert!(closed.crossings(&ray).is_multiple_of(2), "{ray:?}");
         }
     }
-    assert_eq!(leaks, 0, "of {rays} rays");
-    assert!(rays >= 600_000);
+}
+
+/// At an outline, and where an edge is met exactly, the offset of the next ray may pass a neighboring face; the medium
+/// set repairs that. Here it is told how often: less than once in 250 chains that are aimed at nothing else.
+#[test]
+fn chains_of_refractions_aimed_at_edges_seldom_find_themselves_on_the_wrong_side() {
+    let mut random = Random::from_seed(33);
+    let (mut rays, mut chains, mut astray) = (0, 0, 0);
+    for closed in SCALES.into_iter().flat_map(Closed::all) {
+        for _ in 0..RAYS / 4 {
+            let (count, fits) = closed.follow(&mut random, 64);
+            rays += count;
+            chains += 1;
+            astray += usize::from(!fits);
+        }
+    }
+    assert!(rays > 2 * chains);
+    assert!(250 * astray < chains, "{astray} of {chains} chains, {rays} rays");
 }
 
 #[test]

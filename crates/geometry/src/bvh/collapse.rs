@@ -9,36 +9,97 @@
 
 use super::binary::{self, BinaryNode};
 use super::node::{Child, MAX_DEPTH, Node, Tree, WIDTH};
-use super::simd::collect_in_large_pages;
+use super::partition;
+use super::simd::{collect_in_large_pages, with_capacity_in_large_pages};
 use hyaline_math::Bounds;
+use rayon::prelude::*;
 
 /// Expected time to visit a node, in some unit.
 const NODE_COST: f32 = 1.0;
 
-/// Expected time to visit a leaf, in the same unit; a block takes as long for one triangle as for four.
-const LEAF_COST: f32 = 0.8;
+/// Expected time to visit a leaf, in the same unit; a block takes as long for one triangle as for eight.
+const LEAF_COST: f32 = 1.4;
 
 /// Most trees that a subtree is split into.
 const SPLITS: usize = WIDTH - 1;
 
+/// More primitives than this are built in parts: memory while building, against the reach of reinsertion.
+const LARGEST_PART: usize = 1 << 20;
+
 /// Builds a tree over boxes, with at most `leaf_size` of them in a leaf; also tells which each leaf holds, ascending.
 pub(crate) fn build(boxes: &[Bounds], leaf_size: u32) -> (Tree, Leaves) {
+    build_in_parts(boxes, leaf_size, LARGEST_PART)
+}
+
+/// The same with parts of at most `limit` primitives.
+pub(super) fn build_in_parts(boxes: &[Bounds], leaf_size: u32, limit: usize) -> (Tree, Leaves) {
     if boxes.is_empty() {
         return (Tree { nodes: Vec::new(), root: None, bounds: Bounds::EMPTY }, Leaves::default());
     }
-    let build_from = |binary: &[BinaryNode]| {
-        let plans = plan(binary, leaf_size);
-        let mut emitter = Emitter { binary, plans: &plans, nodes: Vec::new(), leaves: Leaves::default() };
-        let root = emitter.emit();
-        let nodes = collect_in_large_pages(emitter.nodes.into_iter());
-        (Tree { nodes, root: Some(root), bounds: binary[0].bounds }, emitter.leaves)
+    let built = if boxes.len() <= limit {
+        binary::optimized(boxes).map(|binary| build_from(&binary, leaf_size))
+    } else {
+        build_parts(boxes, leaf_size, limit)
     };
-    let built = binary::optimized(boxes).map(|binary| build_from(&binary));
     match built.filter(|(tree, _)| depth(&tree.nodes) <= MAX_DEPTH) {
         Some(built) => built,
         // As deep as the binary tree at most, which is less than 32 here.
-        None => build_from(&binary::halved(boxes)),
+        None => build_from(&binary::halved(boxes), leaf_size),
     }
+}
+
+fn build_from(binary: &[BinaryNode], leaf_size: u32) -> (Tree, Leaves) {
+    let plans = plan(binary, leaf_size);
+    let mut emitter = Emitter { binary, plans: &plans, nodes: Vec::new(), leaves: Leaves::default() };
+    let root = emitter.emit();
+    let nodes = collect_in_large_pages(emitter.nodes.into_iter());
+    (Tree { nodes, root: Some(root), bounds: binary[0].bounds }, emitter.leaves)
+}
+
+/// A tree for each part, and one over them all.
+fn build_parts(boxes: &[Bounds], leaf_size: u32, limit: usize) -> Option<(Tree, Leaves)> {
+    let parts: Option<Vec<(Tree, Leaves)>> = partition::parts(boxes, limit)
+        .into_par_iter()
+        .map(|part| {
+            let own: Vec<Bounds> = part.iter().map(|&i| boxes[i as usize]).collect();
+            let (tree, mut leaves) = build_from(&binary::optimized(&own)?, leaf_size);
+            leaves.primitives.iter_mut().for_each(|i| *i = part[*i as usize]);
+            Some((tree, leaves))
+        })
+        .collect();
+    let parts = parts?;
+    let bounds: Vec<Bounds> = parts.iter().map(|(tree, _)| tree.bounds).collect();
+    Some(joined(build_from(&binary::halved(&bounds), 1), parts))
+}
+
+/// Puts a tree in the place of each leaf of `upper`, which holds their numbers.
+fn joined((upper, order): (Tree, Leaves), parts: Vec<(Tree, Leaves)>) -> (Tree, Leaves) {
+    let node_count = parts.iter().map(|(tree, _)| tree.nodes.len()).sum::<usize>() + upper.nodes.len();
+    let mut nodes = with_capacity_in_large_pages(node_count);
+    nodes.extend(upper.nodes);
+    let upper_count = nodes.len();
+    let mut leaves = Leaves::default();
+    let mut roots = Vec::with_capacity(parts.len());
+    for (tree, part) in parts {
+        let (first_node, first_leaf) = (nodes.len(), leaves.len());
+        let place = |child: Child| {
+            if child.is_leaf() {
+                Child::leaf(first_leaf + child.index())
+            } else {
+                Child::node(first_node + child.index())
+            }
+        };
+        roots.extend(tree.root.map(place));
+        nodes.extend(tree.nodes.into_iter().map(|node| Node { children: node.children.map(place), ..node }));
+        leaves.append(&part);
+    }
+    let root_of = |child: Child| {
+        if child.is_leaf() { roots[order.get(child.index())[0] as usize] } else { child }
+    };
+    for node in &mut nodes[..upper_count] {
+        node.children = node.children.map(root_of);
+    }
+    (Tree { nodes, root: upper.root.map(root_of), bounds: upper.bounds }, leaves)
 }
 
 /// The primitives of each leaf.
@@ -56,6 +117,13 @@ impl Leaves {
     pub(crate) fn get(&self, leaf: usize) -> &[u32] {
         let start = if leaf == 0 { 0 } else { self.ends[leaf - 1] };
         &self.primitives[start..self.ends[leaf]]
+    }
+
+    /// Adds the leaves of another part.
+    fn append(&mut self, other: &Self) {
+        let start = self.primitives.len();
+        self.primitives.extend(&other.primitives);
+        self.ends.extend(other.ends.iter().map(|end| start + end));
     }
 
     /// Adds a leaf; returns its index.

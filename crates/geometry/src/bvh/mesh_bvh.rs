@@ -4,7 +4,7 @@ use super::collapse;
 use super::node::{BLOCK, Block, Tree};
 use super::query::Sink;
 use super::ray::{BoxRay, FilterRay, SlabRay};
-use super::simd::{Lanes, collect_in_large_pages, prefetch};
+use super::simd::{Lanes, prefetch, with_capacity_in_large_pages};
 use super::traverse::{Visitor, traverse};
 use crate::hit::Candidate;
 use crate::mesh::Mesh;
@@ -28,7 +28,9 @@ impl MeshBvh {
         let boxes: Vec<Bounds> =
             faces.into_par_iter().map(|face| Bounds::from_points(mesh.corners(face))).collect();
         let (tree, leaves) = collapse::build(&boxes, BLOCK as u32);
-        let blocks = collect_in_large_pages((0..leaves.len()).map(|leaf| block(&mesh, leaves.get(leaf))));
+        drop(boxes);
+        let mut blocks = with_capacity_in_large_pages(leaves.len());
+        blocks.par_extend((0..leaves.len()).into_par_iter().map(|leaf| block(&mesh, leaves.get(leaf))));
         Self { mesh, tree, blocks }
     }
 
@@ -58,7 +60,7 @@ impl MeshBvh {
     }
 }
 
-/// The block of some faces, at most four.
+/// The block of some faces, at most eight.
 fn block(mesh: &Mesh, faces: &[u32]) -> Block {
     let mut block = Block::empty();
     for (lane, &face) in faces.iter().enumerate() {
@@ -99,7 +101,7 @@ impl<L: Lanes, K: Sink> Visitor for Faces<'_, L, K> {
         while lanes != 0 {
             let lane = lanes.trailing_zeros() as usize & (BLOCK - 1);
             lanes &= lanes - 1;
-            if let Some(hit) = self.ray.triangle(block.corners(lane)) {
+            if let Some(hit) = self.ray.turned_triangle(block.corners(lane, self.ray.axes)) {
                 let (primitive, barycentric) = (block.faces[lane], hit.barycentric);
                 self.sink.take(Candidate { t: hit.t, item: self.item, primitive, barycentric })?;
             }

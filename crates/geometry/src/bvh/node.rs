@@ -1,4 +1,4 @@
-//! The memory layout of trees: nodes of eight boxes, blocks of four triangles.
+//! The memory layout of trees: nodes of eight boxes, blocks of eight triangles.
 
 use hyaline_math::{Bounds, Vec3};
 
@@ -6,7 +6,7 @@ use hyaline_math::{Bounds, Vec3};
 pub(crate) const WIDTH: usize = 8;
 
 /// Triangles of a block.
-pub(crate) const BLOCK: usize = 4;
+pub(crate) const BLOCK: usize = 8;
 
 /// Most entries the stack of a traversal can hold.
 pub(crate) const STACK_SIZE: usize = 256;
@@ -76,9 +76,9 @@ impl Node {
     }
 }
 
-/// Up to four triangles, coordinate by coordinate.
+/// Up to eight triangles, coordinate by coordinate.
 #[derive(Clone, Debug, PartialEq)]
-#[repr(C, align(32))]
+#[repr(C, align(64))]
 pub(crate) struct Block {
     /// By vertex, then by axis.
     pub(crate) vertices: [[[f32; BLOCK]; 3]; 3],
@@ -103,9 +103,10 @@ impl Block {
         self.faces[lane] = face;
     }
 
+    /// The corners of a triangle, their coordinates in the order of `axes`.
     #[inline(always)]
-    pub(crate) fn corners(&self, lane: usize) -> [Vec3; 3] {
-        let corner = |v: &[[f32; BLOCK]; 3]| Vec3::new(v[0][lane], v[1][lane], v[2][lane]);
+    pub(crate) fn corners(&self, lane: usize, axes: [usize; 3]) -> [[f32; 3]; 3] {
+        let corner = |v: &[[f32; BLOCK]; 3]| axes.map(|axis| v[axis][lane]);
         [corner(&self.vertices[0]), corner(&self.vertices[1]), corner(&self.vertices[2])]
     }
 }

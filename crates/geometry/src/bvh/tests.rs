@@ -222,6 +222,47 @@ fn boxes_that_shrink_geometrically_do_not_overflow_the_stack() {
 }
 
 #[test]
+fn a_tree_of_parts_has_each_box_once_where_a_ray_finds_it() {
+    let mut random = Random::from_seed(5);
+    let boxes: Vec<Bounds> = (0..5000)
+        .map(|_| {
+            let corner = vector(&mut random, 10.0);
+            Bounds { min: corner, max: corner + vector(&mut random, 1.0).abs() }
+        })
+        .collect();
+    let build = |threads| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        pool.install(|| collapse::build_in_parts(&boxes, 4, 300))
+    };
+    let (tree, leaves) = build(1);
+    assert!(tree == build(7).0);
+    let mut all: Vec<u32> = (0..leaves.len()).flat_map(|leaf| leaves.get(leaf)).copied().collect();
+    all.sort_unstable();
+    assert!(all.into_iter().eq(0..5000));
+    assert!((0..leaves.len()).all(|leaf| leaves.get(leaf).is_sorted() && leaves.get(leaf).len() <= 4));
+    let mut met = 0;
+    for _ in 0..200 {
+        let origin = vector(&mut random, 20.0);
+        let target = boxes[random.bits() as usize % boxes.len()].center();
+        let ray = Ray::new(origin, (target - origin).normalize());
+        let local = LocalRay::from_world(&ray);
+        for level in levels() {
+            let mut visitor = Count { leaves: Vec::new() };
+            let box_ray = BoxRay::new(&SlabRay::new(&local), &tree);
+            VerifiedLevel::new(level).run(Descend(&tree, &box_ray, &mut visitor));
+            let shown: Vec<u32> = visitor.leaves.iter().flat_map(|&leaf| leaves.get(leaf)).copied().collect();
+            for (i, bounds) in boxes.iter().enumerate() {
+                if slab(&ray, bounds).is_some() {
+                    met += 1;
+                    assert_eq!(shown.iter().filter(|&&shown| shown == i as u32).count(), 1, "{level:?}");
+                }
+            }
+        }
+    }
+    assert!(met >= 600, "{met}");
+}
+
+#[test]
 fn boxes_of_any_size_can_be_built() {
     for size in [0.0, 1e-38, 1e-20, 1e15] {
         for count in [1, 2, 9, 100] {

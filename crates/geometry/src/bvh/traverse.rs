@@ -31,12 +31,16 @@ pub(crate) fn traverse<L: Lanes, V: Visitor>(
     let boxes = lanes.prepare_boxes(ray);
     let mut stack = Stack::new();
     loop {
-        if current.is_leaf() {
-            visitor.leaf(current.index())?;
-        } else {
-            let node = &tree.nodes[current.index()];
+        let mut next = Some(current);
+        while let Some(child) = next
+            && !child.is_leaf()
+        {
+            let node = &tree.nodes[child.index()];
             let (nears, hits) = lanes.hit_boxes(&boxes, node, visitor.limit());
-            push_children(tree, visitor, &mut stack, node, &nears, hits);
+            next = choose(tree, visitor, &mut stack, node, &nears, hits);
+        }
+        if let Some(leaf) = next {
+            visitor.leaf(leaf.index())?;
         }
         loop {
             match stack.pop() {
@@ -51,32 +55,57 @@ pub(crate) fn traverse<L: Lanes, V: Visitor>(
     }
 }
 
-/// Puts the children that were hit on the stack, the nearest on top.
+/// The nearest child that was hit; the others go on the stack, the nearest on top. One child hit is the most frequent
+/// case, and two the next.
 #[inline(always)]
-fn push_children<V: Visitor>(
+fn choose<V: Visitor>(
     tree: &Tree,
     visitor: &V,
     stack: &mut Stack,
     node: &Node,
     nears: &Nears,
     mut hits: u32,
-) {
-    let start = stack.len();
-    while hits != 0 {
+) -> Option<Child> {
+    if hits == 0 {
+        return None;
+    }
+    let mut take = || {
         let slot = hits.trailing_zeros() as usize & 7;
         hits &= hits - 1;
-        let child = node.children[slot];
-        // Most of the time is spent waiting for memory; this lets the children wait together.
+        (entry(nears.0[slot], node.children[slot]), hits != 0)
+    };
+    let (first, has_second) = take();
+    if !has_second {
+        return Some(child_of(first));
+    }
+    // Most of the time is spent waiting for memory; this lets the children wait together.
+    let warm = |entry: u64| {
+        let child = child_of(entry);
         if child.is_leaf() {
             visitor.prefetch(child.index());
         } else if let Some(node) = tree.nodes.get(child.index()) {
             prefetch(node);
         }
-        stack.push(entry(nears.0[slot], child));
-        if V::IS_ORDERED {
+    };
+    let (second, mut has_more) = take();
+    warm(first);
+    warm(second);
+    let start = stack.len();
+    let is_swapped = V::IS_ORDERED && first < second;
+    let (far, mut near) = if is_swapped { (second, first) } else { (first, second) };
+    stack.push(far);
+    while has_more {
+        let (other, rest) = take();
+        has_more = rest;
+        warm(other);
+        let is_nearer = !V::IS_ORDERED || other < near;
+        stack.push(if is_nearer { near } else { other });
+        near = if is_nearer { other } else { near };
+        if V::IS_ORDERED && !is_nearer {
             stack.sink_last(start);
         }
     }
+    Some(child_of(near))
 }
 
 /// A stack entry; a later one in the order of integers is a farther one, since distances are not negative.

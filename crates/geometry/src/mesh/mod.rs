@@ -18,6 +18,7 @@ pub use measure::MeshTopology;
 pub use sampler::MeshSampler;
 
 use hyaline_math::{Bounds, DVec3, Vec2, Vec3};
+use rayon::prelude::*;
 
 /// Largest coordinate a vertex may have, scene units; box tests stay within the range of `f32` up to here.
 pub const MAX_COORDINATE: f32 = 1e15;
@@ -75,8 +76,11 @@ impl Mesh {
         }
         // Made unit here rather than at every hit.
         data.normals.iter_mut().flatten().for_each(|n| *n = n.normalize_or_zero());
-        let used = data.triangles.iter().flatten().map(|&i| data.positions[i as usize]);
-        let bounds = Bounds::from_points(used);
+        let bounds = data
+            .triangles
+            .par_iter()
+            .map(|face| Bounds::from_points(face.map(|i| data.positions[i as usize])))
+            .reduce(|| Bounds::EMPTY, Bounds::union);
         let dropped_faces = face_count - data.triangles.len();
         Ok(Self { data, bounds, dropped_faces })
     }
@@ -147,7 +151,7 @@ pub(crate) fn doubled_area(corners: [DVec3; 3]) -> DVec3 {
 fn drop_degenerate(data: &mut MeshData) {
     let keep: Vec<bool> = data
         .triangles
-        .iter()
+        .par_iter()
         .map(|face| {
             let corners = face.map(|i| data.positions[i as usize].as_dvec3());
             doubled_area(corners).length_squared() > 0.0

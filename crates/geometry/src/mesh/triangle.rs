@@ -14,7 +14,7 @@
 //! Source: Woop, Benthin, Wald, Watertight Ray/Triangle Intersection, JCGT 2(1), 2013, here in `f64`; the step aside:
 //! Edelsbrunner and Mücke, Simulation of Simplicity, ACM TOG 9(1), 1990.
 
-use hyaline_math::{DVec3, Ray, Transform, Vec2, Vec3};
+use hyaline_math::{DVec3, Ray, Transform, Vec2};
 
 /// A ray in the space of a mesh; distances along it are those of the world.
 #[derive(Clone, Copy, Debug)]
@@ -26,6 +26,8 @@ pub(crate) struct LocalRay {
     pub(crate) t_max: f32,
     /// The axes, the one of the largest component of the direction last.
     pub(crate) axes: [usize; 3],
+    /// The origin, its coordinates in the order of `axes`.
+    turned_origin: [f64; 3],
     /// Direction along the first two axes for a unit step along the third.
     pub(crate) shear: [f64; 2],
     pub(crate) inverse_z: f64,
@@ -61,20 +63,22 @@ impl LocalRay {
         let axes = [(z + 1) % 3, (z + 2) % 3, z];
         let shear = [direction[axes[0]] / direction[z], direction[axes[1]] / direction[z]];
         let inverse_z = 1.0 / direction[z];
-        Self { origin, direction, t_min: ray.t_min, t_max: ray.t_max, axes, shear, inverse_z }
+        let turned_origin = axes.map(|axis| origin[axis]);
+        Self { origin, direction, t_min: ray.t_min, t_max: ray.t_max, axes, turned_origin, shear, inverse_z }
     }
 
     /// A vertex in the frame of the ray; z is not yet scaled.
     #[inline(always)]
-    fn place(&self, vertex: Vec3) -> [f64; 3] {
-        let v = vertex.as_dvec3() - self.origin;
-        let z = v[self.axes[2]];
-        [v[self.axes[0]] - self.shear[0] * z, v[self.axes[1]] - self.shear[1] * z, z]
+    fn place(&self, vertex: [f32; 3]) -> [f64; 3] {
+        let [x, y, z]: [f64; 3] = std::array::from_fn(|i| f64::from(vertex[i]) - self.turned_origin[i]);
+        [x - self.shear[0] * z, y - self.shear[1] * z, z]
     }
 
     /// The crossing with a triangle, if it lies strictly between `t_min` and `t_max`.
+    ///
+    /// - `corners`: their coordinates in the order of `axes`.
     #[inline(always)]
-    pub(crate) fn triangle(&self, corners: [Vec3; 3]) -> Option<TriangleHit> {
+    pub(crate) fn turned_triangle(&self, corners: [[f32; 3]; 3]) -> Option<TriangleHit> {
         let [a, b, c] = [self.place(corners[0]), self.place(corners[1]), self.place(corners[2])];
         let u = Edge::between(c, b);
         let v = Edge::between(a, c);
@@ -89,6 +93,12 @@ impl LocalRay {
         let t = (u * a[2] + v * b[2] + w * c[2]) * self.inverse_z;
         let within = t > f64::from(self.t_min) && t < f64::from(self.t_max);
         within.then(|| TriangleHit { t: self.round_inside(t), barycentric: Vec2::new(v as f32, w as f32) })
+    }
+
+    /// The same for corners as they are.
+    #[cfg(test)]
+    pub(crate) fn triangle(&self, corners: [hyaline_math::Vec3; 3]) -> Option<TriangleHit> {
+        self.turned_triangle(corners.map(|corner| self.axes.map(|axis| corner[axis])))
     }
 
     /// `t` rounded to `f32`, but not onto the ends of the interval.

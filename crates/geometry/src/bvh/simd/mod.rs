@@ -12,7 +12,7 @@ mod x86;
 pub use memory::with_capacity_in_large_pages;
 pub(crate) use memory::{Stack, collect_in_large_pages, prefetch};
 
-use super::node::{Block, Node};
+use super::node::{BLOCK, Block, Node};
 use super::ray::{BoxRay, FilterRay};
 
 /// A kind of processor.
@@ -136,6 +136,6 @@ impl Lanes for Scalar {
 
     #[inline(always)]
     fn filter(self, (): &(), block: &Block, _: f32) -> u32 {
-        (0..4).fold(0, |lanes, lane| lanes | (block.faces[lane] >> 31 ^ 1) << lane)
+        (0..BLOCK).fold(0, |lanes, lane| lanes | (block.faces[lane] >> 31 ^ 1) << lane)
     }
 }
