@@ -3,6 +3,7 @@
 use crate::shadow;
 use crate::stats::Stats;
 use crate::walk::VolumeVertex;
+use crate::{RenderSettings, Techniques};
 use hyaline_math::Vec3;
 use hyaline_sampling::{Sampler, mis};
 use hyaline_scattering::{MediumSet, Phase};
@@ -12,10 +13,12 @@ use hyaline_world::World;
 /// Light of one light, chosen at random, that the medium sends back along the path: an estimate of the sum over all
 /// lights, to be shared with directions drawn from the phase function.
 ///
+/// - `settings`: which ways of finding light count.
 /// - `wo`: unit, back along the path.
 /// - `set`: what the place is in.
 pub fn sample_one_light(
     world: &World,
+    settings: &RenderSettings,
     vertex: &VolumeVertex,
     wo: Vec3,
     set: &MediumSet,
@@ -31,9 +34,11 @@ pub fn sample_one_light(
     if phase == 0.0 || sample.radiance.is_zero() {
         return Spectrum::ZERO;
     }
-    let weight = match sample.is_delta {
-        true => 1.0,
-        false => mis::power(sample.pdf_w * choice.probability, phase),
+    let Techniques { hits, sampling, .. } = settings.techniques;
+    let weight = match (hits && !sample.is_delta, sampling) {
+        (true, true) => mis::power(sample.pdf_w * choice.probability, phase),
+        (true, false) => 0.0,
+        (false, _) => 1.0,
     };
     let ray = shadow::ray_from(vertex.p, &sample, 0.0);
     let way = shadow::straight_way(world, &ray, set, stats);

@@ -13,6 +13,8 @@ mod hit;
 mod place;
 mod receiver;
 mod surface;
+#[cfg(test)]
+mod tests;
 pub(super) mod weight;
 
 use crate::direct::LastScatter;

@@ -22,13 +22,34 @@ impl Eye<'_> {
             if let Some(photons) = &self.photons {
                 path.light += path.throughput * self.gather_in_volume(place, wo, photons, radius);
             }
-            let light =
-                in_volume::sample_one_light(self.world, place, wo, &path.set, draws.sampler, draws.stats);
+            let light = in_volume::sample_one_light(
+                self.world,
+                self.settings,
+                place,
+                wo,
+                &path.set,
+                draws.sampler,
+                draws.stats,
+            );
             path.light += path.throughput * light;
         }
         let phase = in_volume::phase_at(self.world, place);
         let wi = phase.sample(wo, draws.sampler.next_2d());
-        let pdf = phase.value(wo, wi);
+        self.turn_at_place(path, place, wi, phase.value(wo, wi), radius);
+        self.survives(path, draws)
+    }
+
+    /// Sends the path on in the direction that was drawn, and keeps all true that weights go by.
+    ///
+    /// - `pdf`: density of `wi`, sr⁻¹; `radius`: gather radius at the place.
+    pub(super) fn turn_at_place(
+        &self,
+        path: &mut Path,
+        place: &VolumeVertex,
+        wi: Vec3,
+        pdf: f32,
+        radius: f32,
+    ) {
         path.bounces += 1;
         path.crossings = 0;
         path.last = LastScatter { sampled: Some((place.p, pdf)), is_covered: false };
@@ -38,7 +59,6 @@ impl Eye<'_> {
         });
         path.footprint.scatter(pdf);
         path.ray = Ray { time: path.ray.time, ..Ray::new(place.p, wi) };
-        self.survives(path, draws)
     }
 
     /// Light of the photons about a particle.

@@ -7,7 +7,7 @@ use crate::photon::specular::is_specular;
 use crate::shadow;
 use crate::walk::Vertex;
 use hyaline_math::Vec3;
-use hyaline_scattering::{MediumSet, Transport};
+use hyaline_scattering::{BsdfSample, MediumSet, Transport};
 use hyaline_spectrum::Spectrum;
 use hyaline_world::light::{DirectSample, LightChoice};
 use std::f32::consts::PI;
@@ -34,22 +34,36 @@ impl Eye<'_> {
         if path.throughput.is_zero() {
             return false;
         }
+        self.turn(path, vertex, &scattered, is_wide, radius);
+        self.survives(path, draws)
+    }
+
+    /// Sends the path on in the direction that was drawn, and keeps all true that weights go by.
+    ///
+    /// - `radius`: gather radius at the vertex.
+    pub(super) fn turn(
+        &self,
+        path: &mut Path,
+        vertex: &Vertex,
+        scattered: &BsdfSample,
+        is_wide: bool,
+        radius: f32,
+    ) {
         let ior_before = self.world.ior(path.set.active());
         if scattered.transmits {
             vertex.commit(self.world, &mut path.set);
         }
-        path.last.record(vertex, &scattered);
+        path.last.record(vertex, scattered);
         if scattered.is_delta {
             path.crossings += 1;
             path.receiver.iter_mut().for_each(|receiver| receiver.chain += 1);
         } else {
             path.bounces += 1;
             path.crossings = 0;
-            self.note_receiver(path, vertex, &scattered, is_wide, ior_before, radius);
+            self.note_receiver(path, vertex, scattered, is_wide, ior_before, radius);
             path.footprint.scatter(scattered.pdf);
         }
         path.ray = vertex.leave(scattered.wi, path.ray.time);
-        self.survives(path, draws)
     }
 
     /// Light of the photons about a vertex.
@@ -64,14 +78,32 @@ impl Eye<'_> {
             if f.is_zero() || cos == 0.0 {
                 return Spectrum::ZERO;
             }
-            let ior = match crosses(vertex, wo, wi) {
-                true => self.world.ior(vertex.far_set(self.world, &path.set).active()),
-                false => ior,
-            };
-            let ratio = own * ior * ior * cos / vertex.bsdf.pdf(wo, wi);
+            let ratio = self.photon_ratio(path, vertex, wo, wi, own, ior);
             f * photon.flux * (weight::power(photon.others / (ratio * ratio)) / cos)
         });
         sum * (1.0 / (PI * radius * radius))
+    }
+
+    /// [`weight::at_receiver`] of a vertex that a photon has come to.
+    ///
+    /// - `wi`: unit, against the photon.
+    /// - `own`: the factor for an index, a cosine and a density of 1.
+    /// - `ior`: index on the side that the path came from.
+    #[inline]
+    pub(super) fn photon_ratio(
+        &self,
+        path: &Path,
+        vertex: &Vertex,
+        wo: Vec3,
+        wi: Vec3,
+        own: f32,
+        ior: f32,
+    ) -> f32 {
+        let ior = match crosses(vertex, wo, wi) {
+            true => self.world.ior(vertex.far_set(self.world, &path.set).active()),
+            false => ior,
+        };
+        own * ior * ior * wi.dot(vertex.hit.ng).abs() / vertex.bsdf.pdf(wo, wi)
     }
 
     /// Light of one light, chosen at random, by a shadow ray.
@@ -95,12 +127,31 @@ impl Eye<'_> {
         let far = crosses(vertex, wo, sample.wi).then(|| vertex.far_set(self.world, &path.set));
         let set = far.as_ref().unwrap_or(&path.set);
         let density = sample.pdf_w * choice.probability;
-        let hitting = if sample.is_delta { 0.0 } else { vertex.bsdf.pdf(wo, sample.wi) / density };
-        let merging = if is_wide { 0.0 } else { self.merging_of(path, vertex, wo, &choice, &sample, set) };
-        let weight = weight::power(hitting * hitting + merging * merging);
+        let weight = self.sample_weight(path, vertex, wo, is_wide, &choice, &sample, set);
         let ray = shadow::ray_to_light(&vertex.hit, &sample, 0.0);
         let way = shadow::straight_way(self.world, &ray, set, draws.stats);
         contribution * (way.shared * weight + way.alone) * (1.0 / density)
+    }
+
+    /// What sampling a light counts beside hitting it and merging.
+    ///
+    /// - `set`: what the path to the light is in.
+    pub(super) fn sample_weight(
+        &self,
+        path: &Path,
+        vertex: &Vertex,
+        wo: Vec3,
+        is_wide: bool,
+        choice: &LightChoice,
+        sample: &DirectSample,
+        set: &MediumSet,
+    ) -> f32 {
+        let techniques = self.settings.techniques;
+        let is_hit = techniques.hits && !sample.is_delta;
+        let density = sample.pdf_w * choice.probability;
+        let hitting = if is_hit { vertex.bsdf.pdf(wo, sample.wi) / density } else { 0.0 };
+        let merging = if is_wide { 0.0 } else { self.merging_of(path, vertex, wo, choice, sample, set) };
+        weight::share(techniques.sampling, hitting * hitting + merging * merging)
     }
 
     /// Density of merging over that of sampling a light from a nearly polished vertex.

@@ -7,11 +7,11 @@ use crate::photon::tree::{PointTree, Region};
 use crate::photon::{PhotonEmitter, PhotonStart};
 use crate::stats::Stats;
 use crate::walk::{self, Event, Flown, Vertex};
-use crate::{RenderSettings, View};
+use crate::{RenderSettings, Techniques, View};
 use hyaline_geometry::SurfaceHit;
 use hyaline_math::{Ray, Vec2, Vec3};
 use hyaline_sampling::Sampler;
-use hyaline_scattering::{MediumSet, Transport};
+use hyaline_scattering::{BsdfSample, MediumSet, Transport};
 use hyaline_spectrum::Spectrum;
 use hyaline_world::light::Light;
 use hyaline_world::{World, mask};
@@ -86,7 +86,7 @@ pub(super) fn count(emitter: &PhotonEmitter<'_>, view: &View) -> u32 {
 }
 
 /// Sends out the photons of a pass.
-pub(super) fn trace(
+pub(in crate::integrator) fn trace(
     world: &World,
     emitter: &PhotonEmitter<'_>,
     settings: &RenderSettings,
@@ -100,7 +100,7 @@ pub(super) fn trace(
             let mut chunk = Chunk::default();
             for photon in index * CHUNK..((index + 1) * CHUNK).min(photons) {
                 let sampler = Sampler::new(settings.sampler, settings.seed, (PHOTON_COLUMN, pass), photon);
-                chunk.follow(world, emitter, sampler, 1.0 / photons as f32);
+                chunk.follow(world, emitter, settings.techniques, sampler, 1.0 / photons as f32);
             }
             chunk
         })
@@ -125,26 +125,36 @@ struct Chunk {
 }
 
 /// A photon on its way.
-struct Photon<'w> {
-    light: &'w Light,
-    index: usize,
-    start: PhotonStart,
+pub(in crate::integrator) struct Photon<'w> {
+    pub(in crate::integrator) light: &'w Light,
+    pub(in crate::integrator) index: usize,
+    pub(in crate::integrator) start: PhotonStart,
     /// Whether no path hits the light.
     is_delta: bool,
-    ray: Ray,
+    techniques: Techniques,
+    pub(in crate::integrator) ray: Ray,
     flux: Spectrum,
     /// Polished and nearly polished surfaces that it has met.
     chain: u32,
     /// Whether all it has done was to cross surfaces with straight shadows.
     comes_straight: bool,
-    others: f32,
+    pub(in crate::integrator) others: f32,
     /// The factor of the light, for lights that paths can hit.
     at_light: f32,
 }
 
 impl Chunk {
-    fn follow(&mut self, world: &World, emitter: &PhotonEmitter<'_>, mut sampler: Sampler, share: f32) {
-        let Some((mut photon, mut set)) = start(world, emitter, &mut sampler, share) else { return };
+    fn follow(
+        &mut self,
+        world: &World,
+        emitter: &PhotonEmitter<'_>,
+        techniques: Techniques,
+        mut sampler: Sampler,
+        share: f32,
+    ) {
+        let Some((mut photon, mut set)) = start(world, emitter, techniques, &mut sampler, share) else {
+            return;
+        };
         let full = photon.flux.max_lane(world.lanes);
         loop {
             let event = if world.has_volumes {
@@ -185,9 +195,10 @@ impl Chunk {
     }
 }
 
-fn start<'w>(
+pub(in crate::integrator) fn start<'w>(
     world: &'w World,
     emitter: &PhotonEmitter<'_>,
+    techniques: Techniques,
     sampler: &mut Sampler,
     share: f32,
 ) -> Option<(Photon<'w>, MediumSet)> {
@@ -196,10 +207,22 @@ fn start<'w>(
     let light = world.lights.get(index);
     let at_light = emission_density(world, emitter, index, start.n, start.ray.direction, &start.set);
     let is_delta = direct::is_delta(light);
-    let others = if is_delta { 0.0 } else { (at_light * at_light).recip() };
+    let others = if is_delta || !techniques.hits { 0.0 } else { (at_light * at_light).recip() };
     let (set, ray, flux) = (start.set.clone(), start.ray, start.flux * share);
     Some((
-        Photon { light, index, start, is_delta, ray, flux, chain: 0, comes_straight: true, others, at_light },
+        Photon {
+            light,
+            index,
+            start,
+            is_delta,
+            techniques,
+            ray,
+            flux,
+            chain: 0,
+            comes_straight: true,
+            others,
+            at_light,
+        },
         set,
     ))
 }
@@ -242,6 +265,24 @@ impl Photon<'_> {
         if !is_specular_event(&vertex.bsdf, scattered.is_delta) {
             return false;
         }
+        self.turn(world, vertex, set, &scattered);
+        let left = self.flux.max_lane(world.lanes) / full;
+        let survival = if self.chain > PATIENCE { left.min(0.9) } else { left.min(1.0) };
+        // Compared this way round, what is not a number ends the photon.
+        let goes_on = sampler.next_1d() < survival;
+        self.flux *= 1.0 / survival;
+        goes_on
+    }
+
+    /// Sends the photon on in the direction that was drawn, and keeps true what its weight goes by.
+    pub(in crate::integrator) fn turn(
+        &mut self,
+        world: &World,
+        vertex: &Vertex,
+        set: &mut MediumSet,
+        scattered: &BsdfSample,
+    ) {
+        let wo = -self.ray.direction;
         let ior_before = world.ior(set.active());
         if scattered.transmits {
             vertex.commit(world, set);
@@ -262,16 +303,7 @@ impl Photon<'_> {
         self.chain += 1;
         self.comes_straight &= vertex.passes_straight(scattered.transmits);
         self.flux *= scattered.weight;
-        let left = self.flux.max_lane(world.lanes) / full;
-        let survival = if self.chain > PATIENCE { left.min(0.9) } else { left.min(1.0) };
-        // Compared this way round, what is not a number ends the photon.
-        let goes_on = sampler.next_1d() < survival;
-        if !goes_on {
-            return false;
-        }
-        self.flux *= 1.0 / survival;
         self.ray = vertex.leave(scattered.wi, 0.0);
-        true
     }
 
     /// Accounts for a rough vertex of the chain; at the first one the light could have been sampled, too.
@@ -286,7 +318,8 @@ impl Photon<'_> {
         let mut sampled = 0.0;
         let mut factor = weight::across(toward_receiver, toward_light);
         if self.chain == 0 {
-            let chance = world.lights.direct().probability(self.index);
+            let is_sampled = f32::from(u8::from(self.techniques.sampling));
+            let chance = is_sampled * world.lights.direct().probability(self.index);
             if self.is_delta {
                 // No path hits the light: sampling it stands where drawing its direction would.
                 factor *= toward_light.pdf;

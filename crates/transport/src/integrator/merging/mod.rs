@@ -26,6 +26,8 @@ use hyaline_film::{PixelSample, Rect};
 use hyaline_scene::ProjectionMaps;
 use hyaline_world::World;
 pub(super) use light::{Landed, emission_density};
+#[cfg(test)]
+pub(super) use light::{Photon, start, trace};
 use std::sync::atomic::AtomicBool;
 
 /// Cells of the projection maps along each axis.
@@ -48,7 +50,7 @@ impl Integrator for MergingIntegrator {
         _stats: &mut Stats,
     ) -> Box<dyn Prepared + 'w> {
         let emitter = PhotonEmitter::new(world, ProjectionMaps::Cells, PROJECTION_CELLS);
-        let photons = light::count(&emitter, view);
+        let photons = if settings.techniques.merging { light::count(&emitter, view) } else { 0 };
         Box::new(Merging { world, view: *view, settings: *settings, emitter, photons })
     }
 }
