@@ -24,6 +24,8 @@ const NEIGHBORS: f64 = 9.0;
 const SHARED_NOISE: f64 = 2.5;
 /// How much of its own variance a pixel's square must exceed to show anything: one firefly alone makes them equal.
 const OWN_NOISE: f64 = 1.5;
+/// Factor for what neighbors, standing in for a pixel, leave out: up to a tenth on caustics with independent noise.
+const RESERVE: f64 = 1.1;
 
 /// Estimate of the relmse of a film's picture against the truth, as `compare` would find it.
 ///
@@ -39,7 +41,7 @@ pub fn error_estimate(film: &Film) -> Option<f64> {
         let variance = plane(film, variances.iter().map(|variance| variance[c]));
         channel_error(&mean, &variance)
     };
-    Some((0..3).map(channel).sum::<f64>() / 3.0)
+    Some(RESERVE * (0..3).map(channel).sum::<f64>() / 3.0)
 }
 
 /// One channel's mean of variance over what is taken for the truth.
@@ -106,7 +108,7 @@ mod tests {
     fn mild_noise_is_estimated_well() {
         for passes in [4, 16, 64] {
             let ratio = ratio(passes, |random| 2.0 * random.uniform());
-            assert!((0.95..1.1).contains(&ratio), "{passes} passes: {ratio}");
+            assert!((1.0..1.25).contains(&ratio), "{passes} passes: {ratio}");
         }
     }
 
@@ -120,7 +122,7 @@ mod tests {
         }
         // Once all pixels have met them, they are noise like any other.
         let ratio = ratio(2048, firefly);
-        assert!((0.95..1.3).contains(&ratio), "2048 passes: {ratio}");
+        assert!((1.0..1.5).contains(&ratio), "2048 passes: {ratio}");
     }
 
     #[test]

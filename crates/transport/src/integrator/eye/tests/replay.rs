@@ -79,7 +79,7 @@ pub(super) fn compare_all(
         // A path whose neighbors meet other surfaces has no derivative to compare with.
         known.merge.is_finite().then_some((index, found, known))
     });
-    found.take(paths).map(|(index, found, known)| each(index, found, known)).count()
+    found.take(paths).inspect(|&(index, found, known)| each(index, found, known)).count()
 }
 
 /// Lets a photon fly to where it may be merged.
