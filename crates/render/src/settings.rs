@@ -16,6 +16,7 @@ pub fn render_settings(description: &hyaline_scene::Settings) -> RenderSettings 
         light_samples: description.light_samples.unwrap_or(defaults.light_samples).max(1),
         photon_map: description.photon_map,
         debug: description.debug,
+        techniques: defaults.techniques,
     }
 }
 

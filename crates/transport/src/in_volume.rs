@@ -15,14 +15,14 @@ use hyaline_world::light::{DirectSample, LightChoice};
 ///
 /// - `wo`: unit, back along the path.
 /// - `set`: what the place is in.
-/// - `others`: squared densities of further ways to find the light over that of sampling it, for a sample and the value
-///   of the phase function.
+/// - `weight`: what sampling counts beside the other ways to find the light, for a sample and the value of the phase
+///   function.
 pub fn sample_one_light(
     world: &World,
     vertex: &VolumeVertex,
     wo: Vec3,
     set: &MediumSet,
-    others: impl FnOnce(&LightChoice, &DirectSample, f32) -> f32,
+    weight: impl FnOnce(&LightChoice, &DirectSample, f32) -> f32,
     sampler: &mut Sampler,
     stats: &mut Stats,
 ) -> Spectrum {
@@ -36,8 +36,7 @@ pub fn sample_one_light(
         return Spectrum::ZERO;
     }
     let density = sample.pdf_w * choice.probability;
-    let hitting = if sample.is_delta { 0.0 } else { phase / density };
-    let weight = 1.0 / (1.0 + hitting * hitting + others(&choice, &sample, phase));
+    let weight = weight(&choice, &sample, phase);
     let ray = shadow::ray_from(vertex.p, &sample, 0.0);
     let way = shadow::straight_way(world, &ray, set, stats);
     let visible = way.shared * weight + way.alone;

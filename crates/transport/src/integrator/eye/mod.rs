@@ -14,6 +14,8 @@ mod merges;
 pub(super) mod place;
 pub(super) mod radius;
 mod surface;
+#[cfg(test)]
+mod tests;
 pub(super) mod weight;
 
 use crate::direct::LastScatter;
