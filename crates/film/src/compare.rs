@@ -6,7 +6,7 @@ use serde::Serialize;
 use std::fmt;
 
 /// Added to the squared reference, so that black pixels don't count without limit.
-const RELATIVE_FLOOR: f64 = 0.01;
+pub(crate) const RELATIVE_FLOOR: f64 = 0.01;
 
 /// Share of the pixels that the trimmed error leaves out.
 const TRIMMED_SHARE: f64 = 0.001;

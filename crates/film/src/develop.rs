@@ -41,7 +41,7 @@ pub fn standard_error(film: &Film) -> Option<Image> {
 }
 
 /// (E[x²] - E[x]²) / (n - 1), for each channel.
-fn pixel_variance(pixel: &PixelSums, n: f64) -> [f64; 3] {
+pub(crate) fn pixel_variance(pixel: &PixelSums, n: f64) -> [f64; 3] {
     std::array::from_fn(|channel| {
         let mean = from_fixed(pixel.beauty[channel]) / n;
         let mean_square = pixel.squares[channel].to_f64() / n;

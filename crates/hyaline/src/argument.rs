@@ -82,6 +82,14 @@ pub(crate) fn exposure(text: &str) -> Result<f32, String> {
     }
 }
 
+/// A relative squared error, > 0.
+pub(crate) fn error(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(error) if error > 0.0 && error.is_finite() => Ok(error),
+        _ => Err(format!("expected an error of more than 0 such as 1e-3, not '{text}'")),
+    }
+}
+
 /// `KEY=VALUE`, the key not empty.
 pub(crate) fn assignment(text: &str) -> Result<(String, String), String> {
     match text.split_once('=') {
@@ -132,6 +140,14 @@ mod tests {
         assert_eq!(passes("4..16"), Ok(4..16));
         for text in ["4", "4..4", "5..4", "..4", "4..", "0..99999999999"] {
             assert!(passes(text).is_err(), "{text}");
+        }
+    }
+
+    #[test]
+    fn an_error_is_a_positive_number() {
+        assert_eq!(error("1e-3"), Ok(1e-3));
+        for text in ["0", "-1", "nan", "inf", "1%", ""] {
+            assert!(error(text).is_err(), "{text}");
         }
     }
 

@@ -46,7 +46,7 @@ pub(crate) struct RenderArguments {
     /// Picture to write: .exr, .png or .pfm; may be repeated [default: the scene's stem .png and .exr, here]
     #[arg(short, long, value_name = "FILE")]
     pub(crate) output: Vec<PathBuf>,
-    /// How light is carried: path, whitted, photon-map, or debug to look at the scene [default: the scene's, else path]
+    /// How light is carried: merging, path, whitted, photon-map, or debug to look at the scene [default: the scene's, else merging]
     #[arg(long, value_name = "NAME")]
     pub(crate) integrator: Option<String>,
     /// Samples per pixel in all
@@ -55,8 +55,8 @@ pub(crate) struct RenderArguments {
     /// Time from after reading the scene to the last pass: 30, 30s, 2m, 1h
     #[arg(long, value_name = "TIME", value_parser = argument::duration)]
     pub(crate) time: Option<Duration>,
-    /// Stop at this error (not yet)
-    #[arg(long, value_name = "E")]
+    /// Stop when the picture's estimated relmse is below E: its mean squared relative error, as `compare` measures it
+    #[arg(long, value_name = "E", value_parser = argument::error)]
     pub(crate) error: Option<f64>,
     /// Passes A, ..., B-1
     #[arg(long, value_name = "A..B", value_parser = argument::passes)]

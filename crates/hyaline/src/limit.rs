@@ -1,7 +1,6 @@
 //! Which passes a run may make, from the limits given.
 
 use crate::cli::RenderArguments;
-use crate::failure::Failure;
 use hyaline_render::Limits;
 use hyaline_scene::Settings;
 
@@ -11,22 +10,16 @@ pub(crate) const DEFAULT_PASSES: u32 = 64;
 /// The limits of the command line, else the file's where it is to be obeyed, else the scene's passes, else 64.
 ///
 /// `--spp N` is passes 0..N; together with `--passes A..B` it is the first N of those.
-///
-/// # Errors
-/// A limit that is planned only.
-pub(crate) fn limits(arguments: &RenderArguments, settings: &Settings) -> Result<Limits, Failure> {
-    if arguments.error.is_some() {
-        return Err(Failure::not_yet("--error"));
-    }
+pub(crate) fn limits(arguments: &RenderArguments, settings: &Settings) -> Limits {
     let count = arguments.spp.map(|spp| spp.get());
     let passes = match (&arguments.passes, count) {
         (Some(passes), None) => passes.clone(),
         (Some(passes), Some(count)) => passes.start..passes.end.min(passes.start.saturating_add(count)),
         (None, Some(count)) => 0..count,
-        (None, None) if arguments.time.is_some() => 0..u32::MAX,
+        (None, None) if arguments.time.is_some() || arguments.error.is_some() => 0..u32::MAX,
         (None, None) => 0..default_count(arguments, settings),
     };
-    Ok(Limits { passes, time: arguments.time })
+    Limits { passes, time: arguments.time, error: arguments.error }
 }
 
 /// Number of passes where the command line gives no limit.
@@ -46,7 +39,7 @@ mod tests {
 
     fn limits_of(words: &str, settings: &Settings) -> Limits {
         let words = std::iter::once("hyaline").chain(words.split_whitespace());
-        limits(&Cli::parse_from(words).render, settings).expect("these limits are fine")
+        limits(&Cli::parse_from(words).render, settings)
     }
 
     #[test]
@@ -64,6 +57,14 @@ mod tests {
     #[test]
     fn time_alone_leaves_the_count_open() {
         assert_eq!(limits_of("--time 3", &Settings::default()).passes, 0..u32::MAX);
+    }
+
+    #[test]
+    fn an_error_alone_leaves_the_count_open_and_goes_with_other_limits() {
+        let limits = limits_of("--error 1e-3", &Settings::default());
+        assert_eq!((limits.passes, limits.error), (0..u32::MAX, Some(1e-3)));
+        let limits = limits_of("--error 1e-3 --spp 100 --time 5", &Settings::default());
+        assert_eq!((limits.passes, limits.error), (0..100, Some(1e-3)));
     }
 
     #[test]

@@ -41,7 +41,7 @@ pub(crate) fn plan(arguments: &RenderArguments, scene: &mut SceneDescription) ->
     let crop = choose_crop(&scene.film)?;
     let camera = choose_camera(arguments.camera.as_deref(), scene)?;
     let view = View { camera, width, height, filter: PixelFilter::new(&filter) };
-    let limits = limit::limits(arguments, &scene.settings)?;
+    let limits = limit::limits(arguments, &scene.settings);
     Ok(Plan { integrator, view, settings: render_settings(&scene.settings), crop, limits, exposure })
 }
 

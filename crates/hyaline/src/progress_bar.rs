@@ -11,10 +11,14 @@ const STEPS: u64 = 1000;
 pub(crate) struct Bar(ProgressBar);
 
 impl Bar {
+    /// Whether anyone sees the bar.
+    pub(crate) fn is_seen() -> bool {
+        std::io::stderr().is_terminal()
+    }
+
     /// A bar on stderr, or none where that is no terminal.
     pub(crate) fn new() -> Self {
-        let bar =
-            if std::io::stderr().is_terminal() { ProgressBar::new(STEPS) } else { ProgressBar::hidden() };
+        let bar = if Self::is_seen() { ProgressBar::new(STEPS) } else { ProgressBar::hidden() };
         if let Ok(style) = ProgressStyle::with_template("{bar:40} {msg}") {
             bar.set_style(style);
         }
@@ -33,7 +37,7 @@ impl Bar {
     }
 }
 
-/// Passes and time left, in words.
+/// Passes, time left and error, in words.
 fn message(progress: Progress) -> String {
     if progress.stage == Stage::Preparing {
         return "preparing".into();
@@ -42,10 +46,9 @@ fn message(progress: Progress) -> String {
         Some(wanted) => format!("{} of {wanted} passes", progress.passes_done),
         None => format!("{} passes", progress.passes_done),
     };
-    match progress.seconds_left {
-        Some(seconds) => format!("{passes}, {} left", clock(seconds)),
-        None => passes,
-    }
+    let left = progress.seconds_left.map(|seconds| format!(", {} left", clock(seconds)));
+    let error = progress.error.map(|error| format!(", error {error:.1e}"));
+    [Some(passes), left, error].into_iter().flatten().collect()
 }
 
 /// A time as `m:ss` or `h:mm:ss`.
@@ -67,9 +70,13 @@ mod tests {
             passes_wanted: Some(64),
             fraction: 0.2,
             seconds_left: Some(61.2),
+            error: None,
         };
         assert_eq!(message(progress), "12 of 64 passes, 1:02 left");
         assert_eq!(message(Progress { passes_wanted: None, ..progress }), "12 passes, 1:02 left");
+        let progress = Progress { error: Some(1.24e-3), ..progress };
+        assert_eq!(message(progress), "12 of 64 passes, 1:02 left, error 1.2e-3");
+        assert_eq!(message(Progress { seconds_left: None, ..progress }), "12 of 64 passes, error 1.2e-3");
         assert_eq!(clock(3723.0), "1:02:03");
     }
 }

@@ -37,6 +37,7 @@ pub(crate) fn run(arguments: &RenderArguments) -> Result<u8, Failure> {
         limits: plan.limits.clone(),
         workers: &workers,
         elapsed: &|| start.elapsed(),
+        watches_error: Bar::is_seen(),
         cancel: &signals.cancel,
     };
     let outcome = render(&world, &plan, &job, film, &files, &mut warnings);
@@ -162,6 +163,7 @@ fn tell(
         },
         rays: outcome.stats.rays,
         photons: outcome.stats.photons,
+        error: hyaline_film::error_estimate(&outcome.film),
         photon_maps: outcome.photons.map(Into::into),
         branches_cut: outcome.stats.branches_cut,
         peak_memory_bytes: memory::peak_bytes(),

@@ -16,6 +16,9 @@ pub(crate) struct Report {
     pub(crate) rays: u64,
     /// Photons emitted by this run.
     pub(crate) photons: u64,
+    /// Estimated relmse of the picture; absent for fewer than two passes.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) error: Option<f64>,
     /// What the photon stage did; absent for integrators without one.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) photon_maps: Option<PhotonMapsReport>,
@@ -120,6 +123,9 @@ impl Report {
             self.passes,
             load + build + prepare + render,
         );
+        if let Some(error) = self.error {
+            text.push_str(&format!(", estimated relmse {error:.1e}"));
+        }
         if self.branches_cut > 0 {
             text.push_str(&format!(", {} branches cut", self.branches_cut));
         }
@@ -142,6 +148,7 @@ mod tests {
             seconds: Seconds { load: 0.1, build: 0.2, prepare: 0.0, render: 1.5 },
             rays: 100,
             photons: 0,
+            error: Some(2e-3),
             photon_maps: None,
             branches_cut: 3,
             peak_memory_bytes: Some(1024),
@@ -150,12 +157,21 @@ mod tests {
         let json = report.to_json();
         assert!(!json.contains('\n'));
         let value: serde_json::Value = serde_json::from_str(&json).unwrap();
-        for key in
-            ["passes", "spp", "seconds", "rays", "photons", "peak_memory_bytes", "warnings", "branches_cut"]
-        {
+        for key in [
+            "passes",
+            "spp",
+            "seconds",
+            "rays",
+            "photons",
+            "error",
+            "peak_memory_bytes",
+            "warnings",
+            "branches_cut",
+        ] {
             assert!(value.get(key).is_some(), "{key}");
         }
         assert_eq!(value["seconds"]["render"], 1.5);
+        assert!(report.to_text().contains("estimated relmse 2.0e-3"), "{}", report.to_text());
     }
 
     #[test]

@@ -22,18 +22,30 @@ pub struct Job<'a> {
     pub workers: &'a Workers,
     /// Time since the scene's files were read: what a time limit counts.
     pub elapsed: &'a dyn Fn() -> Duration,
+    /// Whether progress tells the error: where nobody watches, it is not worked out.
+    pub watches_error: bool,
     /// Set from outside to stop soon: the pass in progress is given up, finished passes are kept.
     pub cancel: &'a AtomicBool,
 }
 
 /// When a render ends: at the first of these.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Limits {
     /// Passes to make; those that the film holds already are skipped.
     pub passes: Range<u32>,
     /// Time by [`Job::elapsed`]. At least one pass is made; none is started that is expected to end after 1.1 times
     /// this.
     pub time: Option<Duration>,
+    /// The error that is small enough, by `hyaline_film::error_estimate`. It is looked at when the film holds 8 passes, and
+    /// again each time it has grown by an eighth: how many passes that takes depends on the picture alone.
+    pub error: Option<f64>,
+}
+
+impl Limits {
+    /// Whether nothing but time or error ends the render.
+    pub(crate) fn are_open(&self) -> bool {
+        self.passes.end == u32::MAX && (self.time.is_some() || self.error.is_some())
+    }
 }
 
 /// What comes of a render.

@@ -10,6 +10,7 @@ mod progress;
 mod render;
 mod settings;
 mod tile;
+mod watch;
 mod workers;
 
 pub use job::{Job, Limits, Outcome};

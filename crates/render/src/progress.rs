@@ -7,12 +7,14 @@ pub struct Progress {
     pub stage: Stage,
     /// Passes finished by this run.
     pub passes_done: u32,
-    /// Passes that this run is to make; `None` where only time ends it.
+    /// Passes that this run is to make; `None` where only time or error ends it.
     pub passes_wanted: Option<u32>,
     /// Part of the work that is done, 0…1.
     pub fraction: f64,
     /// Expected time to the end, seconds; `None` before anything is known.
     pub seconds_left: Option<f64>,
+    /// Estimated error of the film, when last looked at.
+    pub error: Option<f64>,
 }
 
 /// What a render is doing.

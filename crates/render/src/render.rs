@@ -5,6 +5,7 @@ use crate::job::{Job, Outcome};
 use crate::pace::Pace;
 use crate::progress::{Progress, Stage};
 use crate::tile;
+use crate::watch::{self, Watch};
 use hyaline_film::{Film, PassSet};
 use hyaline_transport::{Integrator, Prepared, Stats};
 use hyaline_world::World;
@@ -56,6 +57,7 @@ const PREPARING: Progress = Progress {
     passes_wanted: None,
     fraction: 0.0,
     seconds_left: None,
+    error: None,
 };
 
 /// A render at work.
@@ -64,8 +66,9 @@ struct Run<'a> {
     film: Film,
     stats: Stats,
     pace: Pace,
+    watch: Watch,
     passes_made: u32,
-    /// Passes to make in all by this run; `None` where only time ends it.
+    /// Passes to make in all by this run; `None` where only time or error ends it.
     passes_wanted: Option<u32>,
 }
 
@@ -73,10 +76,12 @@ impl<'a> Run<'a> {
     fn new(job: &'a Job<'a>, film: Film, stats: Stats) -> Self {
         let range = &job.limits.passes;
         let held = held_passes(film.passes(), range);
-        let is_open = range.end == u32::MAX && job.limits.time.is_some();
+        let mut watch = Watch::new(job.limits.error, job.watches_error);
+        watch.look(&film);
         Self {
             pace: Pace::new(job.limits.time.map(|time| time.as_secs_f64()), job.crop.area()),
-            passes_wanted: (!is_open).then_some(range.end - range.start - held),
+            watch,
+            passes_wanted: (!job.limits.are_open()).then_some(range.end - range.start - held),
             job,
             film,
             stats,
@@ -104,7 +109,12 @@ impl<'a> Run<'a> {
         let mut next_pass = self.job.limits.passes.start;
         loop {
             let start = self.elapsed();
-            let passes = self.choose_passes(&mut next_pass, self.pace.next_batch(start));
+            let held = watch::count(&self.film);
+            if self.watch.is_reached(held) {
+                return;
+            }
+            let batch = self.pace.next_batch(start).min(self.watch.until_next(held).unwrap_or(u32::MAX));
+            let passes = self.choose_passes(&mut next_pass, batch);
             if passes.is_empty() || self.job.cancel.load(Ordering::SeqCst) {
                 return;
             }
@@ -114,6 +124,7 @@ impl<'a> Run<'a> {
             let stats = self.job.workers.run_watched(|| batches.render(&passes, &mut memory), watch);
             self.stats.add(&stats);
             self.add_whole_passes(&batches, &memory);
+            self.watch.look(&self.film);
             self.pace.record_batch(passes.len() as u32, self.elapsed() - start);
             progress(self.progress(0.0));
             self.write_checkpoint(checkpoint);
@@ -162,8 +173,9 @@ impl<'a> Run<'a> {
     fn progress(&self, passes_at_work: f64) -> Progress {
         let elapsed = self.elapsed();
         let done = f64::from(self.passes_made) + passes_at_work;
-        let left = self.passes_wanted.map(|wanted| (f64::from(wanted) - done).max(0.0));
-        let by_count = self.passes_wanted.map_or(0.0, |wanted| done / f64::from(wanted.max(1)));
+        let wanted = self.passes_expected();
+        let left = wanted.map(|wanted| (wanted - done).max(0.0));
+        let by_count = wanted.map_or(0.0, |wanted| done / wanted.max(1.0));
         let by_time = self.job.limits.time.map_or(0.0, |limit| elapsed / limit.as_secs_f64());
         Progress {
             stage: Stage::Rendering,
@@ -171,7 +183,16 @@ impl<'a> Run<'a> {
             passes_wanted: self.passes_wanted,
             fraction: by_count.max(by_time).clamp(0.0, 1.0),
             seconds_left: self.pace.seconds_left(left, elapsed),
+            error: self.watch.error(),
         }
+    }
+
+    /// Passes that this run will make, by their number or by the error that is wanted, as far as either is known.
+    fn passes_expected(&self) -> Option<f64> {
+        let held_before = f64::from(watch::count(&self.film)) - f64::from(self.passes_made);
+        let by_error = self.watch.expected_passes().map(|passes| passes - held_before);
+        let by_count = self.passes_wanted.map(f64::from);
+        by_count.into_iter().chain(by_error).reduce(f64::min)
     }
 }
 

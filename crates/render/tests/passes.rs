@@ -1,6 +1,6 @@
 //! A render makes the passes it is asked for, each once and whole, whatever the threads, the clock and interruptions.
 
-use hyaline_film::{Film, FilmHeader, PixelSample, Rect};
+use hyaline_film::{Film, FilmHeader, PixelSample, Rect, error_estimate};
 use hyaline_math::{DVec3, Transform};
 use hyaline_render::{Job, Limits, Outcome, Workers, render};
 use hyaline_scene::{
@@ -121,6 +121,7 @@ fn film_of(passes: impl IntoIterator<Item = u32>) -> Film {
 struct Run {
     passes: Range<u32>,
     time: Option<u64>,
+    error: Option<f64>,
     threads: usize,
     cancel_in: Option<u32>,
     pass_seconds: u64,
@@ -128,7 +129,7 @@ struct Run {
 
 impl Run {
     fn of(passes: Range<u32>) -> Self {
-        Self { passes, time: None, threads: 2, cancel_in: None, pass_seconds: 1 }
+        Self { passes, time: None, error: None, threads: 2, cancel_in: None, pass_seconds: 1 }
     }
 
     /// Runs on `film`; returns the outcome and the number of passes at each checkpoint.
@@ -142,9 +143,14 @@ impl Run {
             view: View { camera: 0, width, height, filter },
             settings: RenderSettings::default(),
             crop: CROP,
-            limits: Limits { passes: self.passes.clone(), time: self.time.map(Duration::from_secs) },
+            limits: Limits {
+                passes: self.passes.clone(),
+                time: self.time.map(Duration::from_secs),
+                error: self.error,
+            },
             workers: &workers,
             elapsed: &|| Duration::from_secs(shared.seconds.load(Ordering::SeqCst)),
+            watches_error: false,
             cancel: &shared.cancel,
         };
         let mut checkpoints = Vec::new();
@@ -203,6 +209,23 @@ fn a_time_limit_ends_the_render_before_it_runs_over() {
     assert_eq!(outcome.film, film_of(0..30));
     let (outcome, _) = Run { time: Some(30), ..Run::of(0..8) }.on(empty_film());
     assert_eq!(outcome.film, film_of(0..8));
+}
+
+#[test]
+fn an_error_limit_is_reached_at_the_same_pass_however_the_render_is_run() {
+    let error = 0.0053;
+    let is_small = |passes: u32| error_estimate(&film_of(0..passes)).is_some_and(|found| found < error);
+    // Looks at 8, 9, ..., 16, 18, 20, 22, 24, 27, ... passes.
+    let wanted = [16, 18, 20, 22, 24, 27, 30].into_iter().find(|&passes| is_small(passes)).expect("in reach");
+    assert!(wanted > 16 && !is_small(wanted - 2));
+    for (threads, pass_seconds) in [(1, 1), (2, 0), (7, 0)] {
+        let run = || Run { error: Some(error), threads, pass_seconds, ..Run::of(0..u32::MAX) };
+        assert_eq!(run().on(empty_film()).0.film, film_of(0..wanted));
+        assert_eq!(run().on(film_of(0..wanted - 3)).0.film, film_of(0..wanted));
+        assert_eq!(run().on(film_of(0..wanted)).0.passes_made, 0);
+    }
+    let first_of_several = Run { error: Some(error), ..Run::of(0..11) };
+    assert_eq!(first_of_several.on(empty_film()).0.film, film_of(0..11));
 }
 
 #[test]

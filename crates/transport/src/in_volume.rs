@@ -68,29 +68,22 @@ impl VolumeLight<'_> {
 }
 
 /// Light of one light, chosen at random, that the medium sends back along the path: an estimate of the sum over all
-/// lights, to be shared with directions that the path goes on in.
+/// lights.
 ///
 /// - `wo`: unit, back along the path.
 /// - `set`: what the place is in.
-/// - `going_there`: density with which the path goes on in a direction, sr⁻¹, given the phase function's value.
-/// - `others`: squared densities of further ways to find the light over that of sampling it, for a sample and the value
-///   of the phase function.
+/// - `weight`: what sampling counts beside the other ways to find the light, for a sample and the value of the phase
+///   function.
 pub fn sample_one_light(
     world: &World,
     vertex: &VolumeVertex,
     wo: Vec3,
     set: &MediumSet,
-    going_there: impl FnOnce(Vec3, f32) -> f32,
-    others: impl FnOnce(&LightChoice, &DirectSample, f32) -> f32,
+    weight: impl FnOnce(&LightChoice, &DirectSample, f32) -> f32,
     sampler: &mut Sampler,
     stats: &mut Stats,
 ) -> Spectrum {
     let VolumeVertex { p, medium, .. } = *vertex;
-    let weight = |choice: &LightChoice, sample: &DirectSample, phase: f32| {
-        let density = sample.pdf_w * choice.probability;
-        let hitting = if sample.is_delta { 0.0 } else { going_there(sample.wi, phase) / density };
-        1.0 / (1.0 + hitting * hitting + others(choice, sample, phase))
-    };
     VolumeLight { world, p, medium, wo, set }.sample_one(weight, sampler, stats)
 }
 

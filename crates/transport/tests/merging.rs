@@ -6,7 +6,7 @@ mod scene_kit;
 use hyaline_math::DVec3;
 use hyaline_scene::*;
 use hyaline_testkit::Moments;
-use hyaline_transport::RenderSettings;
+use hyaline_transport::{RenderSettings, Techniques};
 use hyaline_world::World;
 use pictures::{Shot, assert_same, luminance};
 use scene_kit::*;
@@ -62,6 +62,49 @@ fn chains_of_rough_glass_and_metal_lose_and_double_no_light() {
         add_rough(&mut kit, roughness);
         assert_as_path(&kit.world(), &format!("roughness {roughness}"));
     }
+}
+
+#[test]
+fn mirrors_throw_light_on_walls_and_through_glass() {
+    let mut kit = hollow(lamp_ball);
+    let white = || ColorSource::Constant([0.9; 3]);
+    let polished = ScalarSource::Constant(0.0);
+    let mirror =
+        MaterialKind::Conductor { metal: Metal::Named("silver".into()), roughness: polished, tint: white() };
+    kit.material("mirror", mirror);
+    kit.surface("mirror ball", sphere(DVec3::new(-0.6, -0.5, -0.9), 0.5), "mirror");
+    kit.surface(
+        "mirror plate",
+        rectangle(DVec3::new(0.2, -1.2, 0.0), DVec3::Z * 0.4, DVec3::X * 0.4),
+        "mirror",
+    );
+    assert_as_path(&kit.world(), "mirrors");
+}
+
+#[test]
+fn light_through_a_glass_of_water_counts_once() {
+    // Walls, base, rim and water: bodies within bodies, of which each crossing knows what meets there.
+    let mut kit = hollow(lamp_ball);
+    kit.medium("water", 1.333);
+    let glass = tumbler(RimKind::Round, &[("water", 0.75, 0.001)], 9.0);
+    kit.object("tumbler", glass, BoundaryDescription::None, "dielectric");
+    assert_as_path(&kit.world(), "glass of water");
+}
+
+#[test]
+fn without_photons_samples_are_those_of_path() {
+    let world = hollow(lamp_ball).world();
+    let techniques = Techniques { merging: false, ..Techniques::default() };
+    let samples = |integrator| {
+        let settings = RenderSettings { techniques, ..settings() };
+        let shot = Shot { world: &world, integrator, settings, size: (8, 8) };
+        let mut all = Vec::new();
+        let stats = shot.render(shot.full_frame(), 0..8, |_, samples| all.extend_from_slice(samples));
+        (all, stats.photons)
+    };
+    let (path, _) = samples("path");
+    assert!(path.iter().any(|sample| luminance(sample) > 0.0));
+    assert_eq!(samples("merging"), (path, 0));
 }
 
 #[test]

@@ -2,14 +2,15 @@
 //!
 //! A folder's scene is its `scene.xml` or `scene.toml`; where it has neither, every `.xml` and `.toml` file that holds
 //! a scene is one. `reference.exr` (radiance) beside the only scene of a folder is its reference,
-//! `reference-variance.exr` the variance of that mean; `references.json` in the folder above may tell an exposure.
+//! `reference-variance.exr` the variance of that mean; `references.json` in the folder above may tell an exposure, and
+//! how far the reference itself is from the truth.
 
 use crate::workspace;
 use serde_json::Value;
 use std::path::{Path, PathBuf};
 
 /// A scene, and its reference where it has one.
-#[derive(Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Scene {
     /// Name in tables: the way from the folder that was searched.
     pub(crate) name: String,
@@ -21,6 +22,17 @@ pub(crate) struct Scene {
     pub(crate) variance: Option<PathBuf>,
     /// Factor on radiance before FLIP.
     pub(crate) exposure: f64,
+    /// Error of the reference itself.
+    pub(crate) floor: Floor,
+}
+
+/// What a perfect picture differs from a reference by; 0 where that isn't known.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(crate) struct Floor {
+    /// Its relmse.
+    pub(crate) relmse: f64,
+    /// The same, trimmed.
+    pub(crate) trimmed: f64,
 }
 
 /// All scenes below a folder, in the order of their names.
@@ -77,24 +89,30 @@ fn scene(root: &Path, folder: &Path, file: PathBuf, is_only: bool) -> Scene {
     } else {
         way.join(file.with_extension("").file_name().unwrap_or_default())
     };
-    let exposure = folder.file_name().and_then(|name| exposure(folder, &name.to_string_lossy()));
+    let known =
+        folder.file_name().and_then(|name| known(folder, &name.to_string_lossy())).unwrap_or_default();
+    let number = |key: &str| known[key].as_f64().filter(|number| *number > 0.0);
     Scene {
         name: path.to_string_lossy().replace('\\', "/"),
         file,
         reference: beside("reference.exr"),
         variance: beside("reference-variance.exr"),
-        exposure: exposure.unwrap_or(1.0),
+        exposure: number("exposure").unwrap_or(1.0),
+        floor: Floor {
+            relmse: number("relmse_floor").unwrap_or(0.0),
+            trimmed: number("relmse_floor_trim").unwrap_or(0.0),
+        },
     }
 }
 
-/// The exposure that `references.json`, in the folder or above it, tells for a folder.
-fn exposure(folder: &Path, name: &str) -> Option<f64> {
+/// What `references.json`, in the folder or above it, tells of a folder.
+fn known(folder: &Path, name: &str) -> Option<Value> {
     let above = folder.parent().unwrap_or(folder);
     let files = [folder, above].map(|place| place.join("references.json"));
     files.iter().find_map(|file| {
         let text = std::fs::read_to_string(file).ok()?;
         let references: Value = serde_json::from_str(&text).ok()?;
-        references[name]["exposure"].as_f64().filter(|exposure| *exposure > 0.0)
+        references.get(name).cloned()
     })
 }
 
@@ -123,7 +141,7 @@ mod tests {
         write(root, "many/reference.exr", "");
         write(root, "other/Cargo.toml", "[package]");
         write(root, ".hidden/scene.xml", "");
-        write(root, "references.json", r#"{"a": {"exposure": 2.5}}"#);
+        write(root, "references.json", r#"{"a": {"exposure": 2.5, "relmse_floor": 2e-4}}"#);
         let found = find(root).unwrap();
         let names: Vec<&str> = found.iter().map(|scene| scene.name.as_str()).collect();
         assert_eq!(names, ["a", "deep/b", "many/one", "many/two"]);
@@ -131,6 +149,7 @@ mod tests {
             found.iter().map(|scene| (scene.reference.is_some(), scene.variance.is_some())).collect();
         assert_eq!(has, [(true, true), (true, false), (false, false), (false, false)]);
         assert_eq!(found.iter().map(|scene| scene.exposure).collect::<Vec<_>>(), [2.5, 1.0, 1.0, 1.0]);
+        assert_eq!(found[0].floor, Floor { relmse: 2e-4, trimmed: 0.0 });
         assert_eq!(find(&root.join("deep/b")).unwrap()[0].name, "any");
     }
 }

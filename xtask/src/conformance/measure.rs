@@ -45,6 +45,8 @@ pub(crate) struct Measured {
     pub(crate) seconds: f64,
     /// What the render warned of.
     pub(crate) warnings: Vec<String>,
+    /// The error that the render itself estimates.
+    pub(crate) estimate: Option<f64>,
     /// Mean of the picture and its error.
     pub(crate) noise: Noise,
     /// What `hyaline compare --json` tells; `None` without a reference.
@@ -66,10 +68,7 @@ impl Renderer<'_> {
     /// # Errors
     /// The command fails, or its results can't be read.
     pub(crate) fn measure(&self, scene: &Scene) -> Result<Measured, String> {
-        let stem = scene.name.replace('/', "-");
-        let [image, film, diff] =
-            [".exr", ".film", "-error.png"].map(|ending| self.output.join(format!("{stem}{ending}")));
-        let files = Files { image, film, diff };
+        let files = self.files(scene);
         let mut measured = self.render(scene, &files)?;
         if let Some(reference) = &scene.reference {
             measured.figures = Some(self.compare(scene, reference, &files)?);
@@ -78,6 +77,28 @@ impl Renderer<'_> {
                 variance.map(|variance| Tiles::test(&files.film, reference, variance)).transpose()?;
         }
         Ok(measured)
+    }
+
+    /// Renders a scene on to each of these numbers of passes in turn, and compares it after each.
+    ///
+    /// # Errors
+    /// The scene has no reference, and as `measure`.
+    pub(crate) fn series(&self, scene: &Scene, lengths: &[u32]) -> Result<Vec<Measured>, String> {
+        let reference = scene.reference.as_ref().ok_or("there is no reference")?;
+        let files = self.files(scene);
+        remove(&files.film)?;
+        let measure = |passes: &u32| {
+            let measured = self.round(scene, &files, &["--spp".into(), passes.to_string()])?;
+            Ok(Measured { figures: Some(self.compare(scene, reference, &files)?), ..measured })
+        };
+        lengths.iter().map(measure).collect()
+    }
+
+    fn files(&self, scene: &Scene) -> Files {
+        let stem = scene.name.replace('/', "-");
+        let [image, film, diff] =
+            [".exr", ".film", "-error.png"].map(|ending| self.output.join(format!("{stem}{ending}")));
+        Files { image, film, diff }
     }
 
     /// Renders in as many rounds as it takes.
@@ -111,6 +132,7 @@ impl Renderer<'_> {
             spp: report["spp"].as_u64().unwrap_or(0),
             seconds: seconds.filter_map(|key| report["seconds"][key].as_f64()).sum(),
             warnings: warnings.filter_map(|text| text.as_str().map(str::to_owned)).collect(),
+            estimate: report["error"].as_f64(),
             noise: noise(&files.film)?,
             figures: None,
             tiles: None,

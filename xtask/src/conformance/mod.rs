@@ -6,6 +6,7 @@
 
 pub(crate) mod folder;
 mod measure;
+mod slope;
 mod table;
 mod tiles;
 
@@ -35,12 +36,16 @@ pub(crate) struct Arguments {
     /// Samples per pixel at which --until-settled gives up
     #[arg(long, value_name = "N", default_value_t = 16384)]
     most_spp: u32,
+    /// Render on to 8, 16, ... passes (up to --spp, else 512), and tell how fast the error falls and whether the render's own
+    /// estimate of it is true
+    #[arg(long, conflicts_with_all = ["time", "until_settled"])]
+    slope: bool,
     /// Integrator; the command's default where absent
     #[arg(long, value_name = "NAME")]
     integrator: Option<String>,
-    /// Sampler: independent or sobol
-    #[arg(long, value_name = "NAME", default_value = "independent")]
-    sampler: String,
+    /// Sampler: independent or sobol [default: independent; with --slope the command's]
+    #[arg(long, value_name = "NAME")]
+    sampler: Option<String>,
     /// Only scenes whose name contains this; may be repeated
     #[arg(long, value_name = "TEXT")]
     only: Vec<String>,
@@ -50,7 +55,7 @@ pub(crate) struct Arguments {
     /// Folder for the table, pictures and films [default: target/conformance]
     #[arg(long, value_name = "FOLDER")]
     out: Option<PathBuf>,
-    /// Fail where a tile test fails
+    /// Fail where a tile test fails, or a slope is too flat
     #[arg(long)]
     strict: bool,
 }
@@ -58,7 +63,11 @@ pub(crate) struct Arguments {
 impl Arguments {
     /// Words for the command that say how to render.
     fn words(&self) -> Vec<String> {
-        let mut words = vec!["--set".to_owned(), format!("settings.sampler={}", self.sampler)];
+        let mut words = Vec::new();
+        let usual = (!self.slope).then_some("independent");
+        if let Some(sampler) = self.sampler.as_deref().or(usual) {
+            words.extend(["--set".to_owned(), format!("settings.sampler={sampler}")]);
+        }
         if let Some(integrator) = &self.integrator {
             words.extend(["--integrator".to_owned(), integrator.clone()]);
         }
@@ -110,6 +119,9 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), String> {
 
     let renderer =
         Renderer { binary: &binary, output: &output, words: arguments.words(), length: arguments.length() };
+    if arguments.slope {
+        return slope::run(&renderer, &scenes, arguments);
+    }
     let mut rows: Vec<Row> = Vec::new();
     for scene in scenes {
         eprintln!("conformance: {}", scene.name);
@@ -123,7 +135,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), String> {
     verdict(arguments.strict, &rows)
 }
 
-fn write(path: &Path, text: &str) -> Result<(), String> {
+pub(crate) fn write(path: &Path, text: &str) -> Result<(), String> {
     std::fs::write(path, text).map_err(|error| format!("{}: {error}", path.display()))
 }
 

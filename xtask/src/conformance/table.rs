@@ -69,7 +69,7 @@ fn verdict(measured: &Measured) -> String {
 }
 
 /// Text that does not break a table.
-fn cell(text: &str) -> String {
+pub(crate) fn cell(text: &str) -> String {
     text.replace('|', "/").replace('\n', " ")
 }
 
@@ -122,6 +122,7 @@ mod tests {
             spp: 64,
             seconds: 1.25,
             warnings: vec!["a | b".into()],
+            estimate: None,
             noise: Noise { mean: 0.5, relative_error },
             figures: None,
             tiles: None,

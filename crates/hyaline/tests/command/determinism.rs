@@ -30,6 +30,26 @@ fn a_resumed_film_is_the_whole() {
 }
 
 #[test]
+fn merging_in_parts_on_other_threads_is_the_whole() {
+    let workshop = Workshop::new();
+    let merging = "scene.toml --integrator merging";
+    for threads in [1, 2] {
+        for (name, passes) in [("whole", "0..8"), ("a", "0..3"), ("b", "3..8")] {
+            let run = workshop.succeed(&format!(
+                "{merging} --threads {threads} --passes {passes} --film {name}{threads}.film -o {name}.png --json"
+            ));
+            assert!(run.json()["photons"].as_u64().is_some_and(|photons| photons > 0));
+        }
+    }
+    // Parts made on one thread and on two, put together either way.
+    for (a, b) in [("a1", "b1"), ("a2", "b2"), ("b1", "a2")] {
+        workshop.succeed(&format!("merge {a}.film {b}.film -o merged.film -o merged.pfm"));
+        workshop.assert_same("merged.film", "whole1.film");
+    }
+    workshop.assert_same("whole1.film", "whole2.film");
+}
+
+#[test]
 fn threads_and_time_limits_change_no_bit() {
     let workshop = Workshop::new();
     for threads in [1, 2, 7] {

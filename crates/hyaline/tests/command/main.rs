@@ -2,8 +2,10 @@
 
 mod check;
 mod determinism;
+mod error_limit;
 mod films;
 #[cfg(unix)]
 mod interruption;
+mod memory;
 mod support;
 mod usage;

@@ -2,8 +2,10 @@
 
 use super::merges::{Beyond, Merges};
 use super::weight;
-use crate::integrator::merging::{BEAM_SHARE, Photons};
+use crate::integrator::merging::{BEAM_SHARE, Beam, Passing, Photons};
 use crate::walk::Stretch;
+use hyaline_math::Ray;
+use hyaline_scattering::Medium;
 use hyaline_scattering::volume::BeamWeight;
 use hyaline_spectrum::Spectrum;
 use hyaline_world::World;
@@ -28,27 +30,13 @@ impl Along<'_> {
     pub(super) fn gather(&self, stretch: &Stretch<'_>) -> Spectrum {
         let Stretch { medium, id, ray, way, flown, left } = stretch;
         let own_weight = BeamWeight::new(medium, self.throughput * *left, self.world.lanes);
-        let sigma = medium.sigma_t().mean(self.world.lanes);
-        let behind = self.merges.behind(Beyond::Wide);
         let mut sum = Spectrum::ZERO;
         self.photons.landed.beams(ray, own_weight.length(*way, *flown), *id, |beam, passing| {
             if beam.bounces >= self.bounces_left {
                 return;
             }
             let phase = medium.phase.value(-ray.direction, -beam.direction);
-            let own = weight::of_beam(BEAM_SHARE, passing.radius, passing.sin, medium.ior, sigma);
-            let squares = beam.straight_from.map_or_else(
-                || (beam.others + behind) * (phase / own) * (phase / own),
-                |origin| {
-                    // No path hits a delta light: sampling it stands where drawing its direction would.
-                    let pdf = if origin.is_delta { 1.0 } else { phase };
-                    let sampled = origin.sampled(self.world, ray.at(passing.on_ray), -beam.direction) / pdf;
-                    let across = phase / pdf;
-                    let others = beam.others + sampled * sampled + behind * across * across;
-                    others * (pdf / own) * (pdf / own)
-                },
-            );
-            let weight = weight::power(squares);
+            let weight = self.weight_of(beam, passing, ray, medium, phase);
             let kernel = 1.0 / (2.0 * passing.radius * passing.sin);
             sum += own_weight.at(passing.on_ray)
                 * beam.weight.at(passing.on_beam)
@@ -56,5 +44,33 @@ impl Along<'_> {
                 * (phase * weight * kernel);
         });
         sum * medium.sigma_s * *left
+    }
+
+    /// What merging a beam counts beside the other ways to make the path.
+    ///
+    /// - `phase`: value of the phase function between the two, sr⁻¹.
+    pub(super) fn weight_of(
+        &self,
+        beam: &Beam,
+        passing: &Passing,
+        ray: &Ray,
+        medium: &Medium,
+        phase: f32,
+    ) -> f32 {
+        let sigma = medium.sigma_t().mean(self.world.lanes);
+        let own = weight::of_beam(BEAM_SHARE, passing.radius, passing.sin, medium.ior, sigma);
+        let behind = self.merges.behind(Beyond::Wide);
+        let squares = beam.straight_from.map_or_else(
+            || (beam.others + behind) * (phase / own) * (phase / own),
+            |origin| {
+                // No path hits a delta light: sampling it stands where drawing its direction would.
+                let pdf = if origin.is_delta { 1.0 } else { phase };
+                let sampled = origin.sampled(self.world, ray.at(passing.on_ray), -beam.direction) / pdf;
+                let across = phase / pdf;
+                let others = beam.others + sampled * sampled + behind * across * across;
+                others * (pdf / own) * (pdf / own)
+            },
+        );
+        weight::power(squares)
     }
 }

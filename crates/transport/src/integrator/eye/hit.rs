@@ -2,6 +2,7 @@
 
 use super::{Eye, Path, weight};
 use crate::walk::Vertex;
+use hyaline_geometry::SurfaceHit;
 use hyaline_math::Vec3;
 use hyaline_spectrum::Spectrum;
 use hyaline_world::mask;
@@ -16,11 +17,7 @@ impl Eye<'_> {
         if radiance.is_zero() {
             return radiance;
         }
-        let sampling = path.last.sampled.map_or(0.0, |(p, pdf)| {
-            let chance = self.world.lights.direct().probability(index as usize);
-            chance * light.pdf_direct(p, direction, Some(hit)) / pdf
-        });
-        radiance * weight::power(sampling * sampling + self.merging(path, index as usize, Some(hit.ng)))
+        radiance * self.hit_weight(path, index as usize, Some(hit))
     }
 
     /// Light of the surroundings.
@@ -33,14 +30,23 @@ impl Eye<'_> {
         let seen = if path.visible == mask::CAMERA { &self.world.camera_sky } else { lights.environments() };
         for &index in seen {
             let light = lights.get(index as usize);
-            let sampling = path.last.sampled.map_or(0.0, |(p, pdf)| {
-                lights.direct().probability(index as usize) * light.pdf_direct(p, path.ray.direction, None)
-                    / pdf
-            });
-            let weight = weight::power(sampling * sampling + self.merging(path, index as usize, None));
-            result += light.radiance_of_sky(path.ray.direction) * weight;
+            result += light.radiance_of_sky(path.ray.direction) * self.hit_weight(path, index as usize, None);
         }
         result
+    }
+
+    /// What hitting a light counts beside sampling it and merging.
+    ///
+    /// - `hit`: the place on the light; `None` for the surroundings.
+    pub(super) fn hit_weight(&self, path: &Path, index: usize, hit: Option<&SurfaceHit>) -> f32 {
+        let techniques = self.settings.techniques;
+        let sampled = path.last.sampled.filter(|_| techniques.sampling);
+        let sampling = sampled.map_or(0.0, |(p, pdf)| {
+            let light = self.world.lights.get(index);
+            self.world.lights.direct().probability(index) * light.pdf_direct(p, path.ray.direction, hit) / pdf
+        });
+        let merging = self.merging(path, index, hit.map(|hit| hit.ng));
+        weight::share(techniques.hits, sampling * sampling + merging)
     }
 
     /// Squared densities of all ways to merge over that of hitting the light that the path has come to.

@@ -17,6 +17,8 @@ pub(super) mod place;
 pub(super) mod radius;
 mod split;
 mod surface;
+#[cfg(test)]
+mod tests;
 pub(super) mod weight;
 
 use crate::direct::LastScatter;

@@ -44,6 +44,15 @@ impl Eye<'_> {
         if aim.is_some() {
             path.throughput *= value / pdf;
         }
+        self.turn_at_place(path, place, wi, pdf);
+        self.survives(path, draws)
+    }
+
+    /// Sends the path on in the direction that was drawn, and keeps all true that weights go by.
+    ///
+    /// - `pdf`: density of `wi`, sr⁻¹.
+    pub(super) fn turn_at_place(&self, path: &mut Path, place: &VolumeVertex, wi: Vec3, pdf: f32) {
+        let wo = -path.ray.direction;
         path.bounces += 1;
         path.crossings = 0;
         path.last = LastScatter { sampled: Some((place.p, pdf)), is_covered: false };
@@ -55,7 +64,6 @@ impl Eye<'_> {
         }
         path.ray = Ray { time: path.ray.time, ..Ray::new(place.p, wi) };
         path.visible = mask::PATH;
-        self.survives(path, draws)
     }
 
     /// Light of the photons about a particle.
@@ -68,22 +76,26 @@ impl Eye<'_> {
     ) -> Spectrum {
         let medium = &self.world.media[place.medium.index()];
         let radius = photons.radius.in_volume(place.p);
-        let own = point_factor(self.world, place, radius);
+        let points = self.points_about(path, place, photons);
         let left = self.bounces_left(path);
-        let behind = path.merges.behind(Beyond::Wide);
         let sum = photons.landed.volume(place.p, radius, |photon| {
             if photon.bounces >= left {
                 return Spectrum::ZERO;
             }
             let phase = medium.phase.value(wo, -photon.direction);
-            // Phase functions are the same both ways.
-            let ratio = phase / own;
-            photon.flux * (phase * weight::power((photon.others + behind) * ratio * ratio))
+            photon.flux * (phase * points.weight_of(phase, photon.others))
         });
         // Photons count what they scatter; what the path scatters is in its throughput already.
         let density = medium.density(place.p);
         let sigma_s = (medium.sigma_s * density).map(|sigma| if sigma > 0.0 { 1.0 / sigma } else { 0.0 });
         sum * sigma_s * (1.0 / (4.0 / 3.0 * PI * radius * radius * radius))
+    }
+
+    /// What weights of photons about a particle have in common.
+    pub(super) fn points_about(&self, path: &Path, place: &VolumeVertex, photons: &Photons<'_>) -> Points {
+        let radius = photons.radius.in_volume(place.p);
+        let own = point_factor(self.world, place, radius);
+        Points { own, behind: path.merges.behind(Beyond::Wide) }
     }
 
     /// Light of one light, chosen at random, by a shadow ray.
@@ -95,10 +107,30 @@ impl Eye<'_> {
         aim: Option<&Cones>,
         draws: &mut Draws<'_>,
     ) -> Spectrum {
-        let going_there = |wi, phase| aim.map_or(phase, |cones| cones.density(phase, wi));
-        let merging = |choice: &LightChoice, sample: &DirectSample, phase: f32| {
-            let Some(photons) = &self.photons else { return 0.0 };
-            let across = phase / (sample.pdf_w * choice.probability);
+        let weight = |choice: &LightChoice, sample: &DirectSample, phase: f32| {
+            let pdf = aim.map_or(phase, |cones| cones.density(phase, sample.wi));
+            self.sample_weight_in_volume(path, place, wo, choice, sample, [phase, pdf])
+        };
+        in_volume::sample_one_light(self.world, place, wo, &path.set, weight, draws.sampler, draws.stats)
+    }
+
+    /// What sampling a light counts beside hitting it and merging.
+    ///
+    /// - `phase`: value of the phase function toward the light, sr⁻¹; and the density with which the path goes on there.
+    pub(super) fn sample_weight_in_volume(
+        &self,
+        path: &Path,
+        place: &VolumeVertex,
+        wo: Vec3,
+        choice: &LightChoice,
+        sample: &DirectSample,
+        [phase, pdf]: [f32; 2],
+    ) -> f32 {
+        let techniques = self.settings.techniques;
+        let density = sample.pdf_w * choice.probability;
+        let across = phase / density;
+        let hitting = if techniques.hits && !sample.is_delta { pdf / density } else { 0.0 };
+        let merging = self.photons.as_ref().map_or(0.0, |photons| {
             let light =
                 photons.senders.of(false).density_of_sample(self.world, choice.index, sample, &path.set);
             let own = match self.world.media[place.medium.index()].grid {
@@ -111,17 +143,27 @@ impl Eye<'_> {
             };
             let behind = path.merges.behind(Beyond::Wide);
             (behind * across * across + own * own) * light * light
-        };
-        in_volume::sample_one_light(
-            self.world,
-            place,
-            wo,
-            &path.set,
-            going_there,
-            merging,
-            draws.sampler,
-            draws.stats,
-        )
+        });
+        weight::share(techniques.sampling, hitting * hitting + merging)
+    }
+}
+
+/// Photons about a particle.
+pub(super) struct Points {
+    /// The factor of the place, but for the density of the direction.
+    own: f32,
+    /// Merges behind it.
+    behind: f32,
+}
+
+impl Points {
+    /// What merging a photon counts beside the other ways to make the path.
+    ///
+    /// - `phase`: value of the phase function, sr⁻¹; `others`: what the photon's side knows of them.
+    pub(super) fn weight_of(&self, phase: f32, others: f32) -> f32 {
+        // Phase functions are the same both ways.
+        let ratio = phase / self.own;
+        weight::power((others + self.behind) * ratio * ratio)
     }
 }
 

@@ -93,14 +93,24 @@ impl Eye<'_> {
     /// Light of the photons about a vertex.
     fn gather(&self, path: &Path, vertex: &Vertex, wo: Vec3, photons: &Photons<'_>) -> Spectrum {
         let p = vertex.hit.p;
-        let radius = photons.radius.on_surface(p);
-        let of = |radius, beyond| Gather { eye: self, path, vertex, wo, radius, beyond };
-        let caustic = of(radius, beyond(vertex));
-        let indirect = of(radius * INDIRECT, Beyond::Wide);
+        let [caustic, indirect] = self.gathers(path, vertex, wo, photons);
         let density = |radius: f32| 1.0 / (PI * radius * radius);
         photons.landed.caustic(p, caustic.radius, |photon| caustic.light_of(photon)) * density(caustic.radius)
             + photons.landed.indirect(p, indirect.radius, |photon| indirect.light_of(photon))
                 * density(indirect.radius)
+    }
+
+    /// The same photon by photon: those that have come over polished and nearly polished surfaces alone, and others.
+    pub(super) fn gathers<'a>(
+        &'a self,
+        path: &'a Path,
+        vertex: &'a Vertex,
+        wo: Vec3,
+        photons: &Photons<'_>,
+    ) -> [Gather<'a>; 2] {
+        let radius = photons.radius.on_surface(vertex.hit.p);
+        let caustic = Gather { eye: self, path, vertex, wo, radius, beyond: beyond(vertex) };
+        [caustic, Gather { radius: radius * INDIRECT, beyond: Beyond::Wide, ..caustic }]
     }
 
     /// Light of one light, chosen at random, by a shadow ray.
@@ -126,12 +136,32 @@ impl Eye<'_> {
         let set = far.as_ref().unwrap_or(&path.set);
         let density = sample.pdf_w * choice.probability;
         let pdf = aim.map_or(pdf, |cones| cones.density(pdf, sample.wi));
-        let hitting = if sample.is_delta { 0.0 } else { pdf / density };
-        let merging = self.merging_over_sampling(path, vertex, wo, &choice, &sample, set);
-        let weight = weight::power(hitting * hitting + merging);
+        let weight = self.sample_weight(path, vertex, wo, pdf, &choice, &sample, set);
         let ray = shadow::ray_to_light(&vertex.hit, &sample, 0.0);
         let way = shadow::straight_way(self.world, &ray, set, draws.stats);
         contribution * (way.shared * weight + way.alone) * (1.0 / density)
+    }
+
+    /// What sampling a light counts beside hitting it and merging.
+    ///
+    /// - `pdf`: density with which the path goes on toward the light, sr⁻¹.
+    /// - `set`: what the path to the light is in.
+    pub(super) fn sample_weight(
+        &self,
+        path: &Path,
+        vertex: &Vertex,
+        wo: Vec3,
+        pdf: f32,
+        choice: &LightChoice,
+        sample: &DirectSample,
+        set: &MediumSet,
+    ) -> f32 {
+        let techniques = self.settings.techniques;
+        let is_hit = techniques.hits && !sample.is_delta;
+        let density = sample.pdf_w * choice.probability;
+        let hitting = if is_hit { pdf / density } else { 0.0 };
+        let merging = self.merging_over_sampling(path, vertex, wo, choice, sample, set);
+        weight::share(techniques.sampling, hitting * hitting + merging)
     }
 
     /// Squared densities of all ways to merge over that of sampling a light.
@@ -159,7 +189,8 @@ impl Eye<'_> {
 }
 
 /// Photons about a vertex, of one kind.
-struct Gather<'a> {
+#[derive(Clone, Copy)]
+pub(super) struct Gather<'a> {
     eye: &'a Eye<'a>,
     path: &'a Path,
     vertex: &'a Vertex,
@@ -173,29 +204,34 @@ struct Gather<'a> {
 impl Gather<'_> {
     /// Weighted light of a photon, sent back along the path, times the area it is gathered from.
     fn light_of(&self, photon: &LandedPhoton) -> Spectrum {
-        let Self { eye, path, vertex, wo, .. } = *self;
         let wi = -photon.direction;
-        let (f, pdf) = vertex.bsdf.eval_with_pdf(wo, wi, Transport::Radiance);
-        if f.is_zero() || photon.bounces >= eye.bounces_left(path) {
+        let (f, pdf) = self.vertex.bsdf.eval_with_pdf(self.wo, wi, Transport::Radiance);
+        let cos = wi.dot(self.vertex.hit.ng).abs();
+        if f.is_zero() || cos == 0.0 || photon.bounces >= self.eye.bounces_left(self.path) {
             return Spectrum::ZERO;
         }
+        f * photon.flux * (self.weight_of(wi, pdf, photon.others) / cos)
+    }
+
+    /// What merging a photon counts beside the other ways to make the path.
+    ///
+    /// - `wi`: unit, against the photon; `pdf`: its density for the path, sr⁻¹.
+    /// - `others`: what the photon's side knows of them.
+    pub(super) fn weight_of(&self, wi: Vec3, pdf: f32, mut others: f32) -> f32 {
+        let Self { eye, path, vertex, wo, .. } = *self;
         let ior_before = eye.world.ior(path.set.active());
         let ior = match crosses(vertex, wo, wi) {
             true => eye.world.ior(vertex.far_set(eye.world, &path.set).active()),
             false => ior_before,
         };
         let toward_light = side(vertex, wi, pdf, ior);
-        if toward_light.cos == 0.0 {
-            return Spectrum::ZERO;
-        }
         let own = weight::at_receiver(self.radius, ior, toward_light.cos, toward_light.pdf);
-        let mut others = photon.others;
         if !path.merges.is_empty() {
             let back = side(vertex, wo, vertex.bsdf.pdf(wi, wo), ior_before);
             let across = weight::across(back, toward_light);
             others += path.merges.behind(self.beyond) * across * across;
         }
-        f * photon.flux * (weight::power(others / (own * own)) / toward_light.cos)
+        weight::power(others / (own * own))
     }
 }
 

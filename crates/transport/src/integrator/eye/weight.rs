@@ -95,3 +95,14 @@ pub(in crate::integrator) fn at_light(
 pub(in crate::integrator) fn power(squares: f32) -> f32 {
     if squares.is_nan() { 0.0 } else { 1.0 / (1.0 + squares) }
 }
+
+/// What one way counts among those that are on.
+///
+/// - `is_on`: whether it is; where it is not, it counts only where no other can make the path.
+/// - `squares`: as for [`power`].
+pub(in crate::integrator) fn share(is_on: bool, squares: f32) -> f32 {
+    match is_on {
+        true => power(squares),
+        false => f32::from(u8::from(squares == 0.0)),
+    }
+}

@@ -32,16 +32,16 @@ const PATIENCE: u32 = 64;
 const PHOTON_COLUMNS: [u32; 2] = [u32::MAX, u32::MAX - 1];
 
 /// What the photons of a pass have in common.
-pub(super) struct Light<'a> {
-    pub(super) world: &'a World,
-    pub(super) senders: &'a Senders<'a>,
-    pub(super) settings: &'a RenderSettings,
-    pub(super) radius: GatherRadius,
+pub(in crate::integrator) struct Light<'a> {
+    pub(in crate::integrator) world: &'a World,
+    pub(in crate::integrator) senders: &'a Senders<'a>,
+    pub(in crate::integrator) settings: &'a RenderSettings,
+    pub(in crate::integrator) radius: GatherRadius,
 }
 
 impl Light<'_> {
     /// Sends out the photons of a pass.
-    pub(super) fn trace(&self, pass: u32, stats: &mut Stats) -> Landed {
+    pub(in crate::integrator) fn trace(&self, pass: u32, stats: &mut Stats) -> Landed {
         let (mut points, mut beams) = (Points::default(), Vec::new());
         for sender in [&self.senders.aimed, &self.senders.broad] {
             let chunks: Vec<Chunk> = (0..sender.count.div_ceil(CHUNK))
@@ -71,7 +71,7 @@ impl Light<'_> {
         chunk
     }
 
-    fn start<'a>(
+    pub(in crate::integrator) fn start<'a>(
         &'a self,
         sender: &'a Sender<'_>,
         leaves_beams: bool,
@@ -81,7 +81,7 @@ impl Light<'_> {
         let at_light =
             sender.density(self.world, start.light as usize, start.n, start.ray.direction, &start.set);
         let flux = start.flux * (1.0 / sender.count as f32);
-        let origin = Origin::new(self.world, &start, at_light);
+        let origin = Origin::new(self.world, &start, at_light, self.settings.techniques);
         Some(Photon {
             sender,
             origin,
@@ -115,9 +115,8 @@ impl Light<'_> {
 
     /// To the next vertex; where the photon leaves beams, they are kept.
     fn walk(&self, photon: &mut Photon<'_>, sampler: &mut Sampler, chunk: &mut Chunk) -> Flown {
-        let straight_from = (photon.vertices == 0).then_some(photon.origin);
-        let counts = photon.lands() || straight_from.is_some() && !photon.sender.is_aimed;
-        let keeps_beams = photon.leaves_beams && counts;
+        let straight_from = photon.straight_from();
+        let keeps_beams = photon.leaves_beams && photon.beams_count();
         let (others, bounces) = (photon.others, photon.bounces);
         let Photon { ray, set, flux, .. } = photon;
         let flux = *flux;
@@ -176,22 +175,34 @@ impl Light<'_> {
         if photon.vertices == 0 && is_specular != photon.sender.is_aimed {
             return false;
         }
+        // What comes straight through straight shadows, the vertex's own shadow rays bring.
+        let is_theirs = photon.vertices > 0 && photon.comes_straight;
+        if !scattered.is_delta && (is_theirs || !self.may_bounce(photon)) {
+            return false;
+        }
+        self.turn(photon, &vertex, &scattered);
+        true
+    }
+
+    /// Sends the photon on in the direction that was drawn, and keeps all true that weights go by.
+    pub(in crate::integrator) fn turn(
+        &self,
+        photon: &mut Photon<'_>,
+        vertex: &Vertex,
+        scattered: &BsdfSample,
+    ) {
         let ior_before = self.world.ior(photon.set.active());
         if scattered.transmits {
             vertex.commit(self.world, &mut photon.set);
         }
         if !scattered.is_delta {
-            // What comes straight through straight shadows, the vertex's own shadow rays bring.
-            if photon.vertices > 0 && photon.comes_straight || !self.may_bounce(photon) {
-                return false;
-            }
-            self.pass(photon, &vertex, &scattered, ior_before);
-            photon.is_indirect |= !is_specular;
+            self.pass(photon, vertex, scattered, ior_before);
+            photon.is_indirect |= !is_specular_event(&vertex.bsdf, false);
         }
         photon.comes_straight &= vertex.passes_straight(scattered.transmits);
         photon.flux *= scattered.weight;
         photon.ray = vertex.leave(scattered.wi, 0.0);
-        true
+        photon.vertices += 1;
     }
 
     /// Lands and scatters at a particle; returns whether the photon goes on.
@@ -206,22 +217,35 @@ impl Light<'_> {
         if photon.lands() && self.world.media[place.medium.index()].grid.is_some() {
             chunk.points.volume.push((place.p, photon.landed(photon.flux)));
         }
-        let is_first = photon.vertices == 0;
-        let is_beam = self.world.media[place.medium.index()].grid.is_none();
-        let may_scatter = if is_first { !photon.sender.is_aimed } else { !photon.comes_straight };
+        let may_scatter = if photon.vertices == 0 { !photon.sender.is_aimed } else { !photon.comes_straight };
         if !may_scatter || !self.may_bounce(photon) {
             return false;
         }
         let wo = -photon.ray.direction;
         let phase = in_volume::phase_at(self.world, place);
         let wi = phase.sample(wo, sampler.next_2d());
-        let pdf = phase.value(wo, wi);
+        self.turn_at_place(photon, place, wi, phase.value(wo, wi));
+        true
+    }
+
+    /// Sends the photon on in the direction that was drawn, and keeps all true that weights go by.
+    ///
+    /// - `pdf`: density of `wi`, sr⁻¹.
+    pub(in crate::integrator) fn turn_at_place(
+        &self,
+        photon: &mut Photon<'_>,
+        place: &VolumeVertex,
+        wi: Vec3,
+        pdf: f32,
+    ) {
+        let wo = -photon.ray.direction;
+        let is_beam = self.world.media[place.medium.index()].grid.is_none();
         let own = volume_factor(self.world, place, &self.radius, [wo, wi]) / pdf;
-        let merges = !is_first || is_beam;
+        let merges = photon.vertices > 0 || is_beam;
         photon.pass(self.world, place.p, pdf, if merges { own } else { 0.0 }, 1.0);
         (photon.comes_straight, photon.is_indirect) = (false, true);
         photon.ray = Ray::new(place.p, wi);
-        true
+        photon.vertices += 1;
     }
 
     /// Accounts for a vertex on a surface that is passed by a lobe that is not singular.
@@ -250,32 +274,43 @@ struct Chunk {
 }
 
 /// A photon on its way.
-struct Photon<'a> {
-    sender: &'a Sender<'a>,
-    origin: Origin,
-    ray: Ray,
-    set: MediumSet,
-    flux: Spectrum,
+#[derive(Clone)]
+pub(in crate::integrator) struct Photon<'a> {
+    pub(in crate::integrator) sender: &'a Sender<'a>,
+    pub(in crate::integrator) origin: Origin,
+    pub(in crate::integrator) ray: Ray,
+    pub(in crate::integrator) set: MediumSet,
+    pub(in crate::integrator) flux: Spectrum,
     /// What the largest lane of its flux was at first.
-    full: f32,
+    pub(in crate::integrator) full: f32,
     /// Vertices that it has passed.
-    vertices: u32,
+    pub(in crate::integrator) vertices: u32,
     /// Those of them that were not singular.
-    bounces: u32,
+    pub(in crate::integrator) bounces: u32,
     /// Whether all it has done was to cross surfaces with straight shadows.
-    comes_straight: bool,
+    pub(in crate::integrator) comes_straight: bool,
     /// Whether its ways through homogeneous media are kept.
-    leaves_beams: bool,
+    pub(in crate::integrator) leaves_beams: bool,
     /// Whether it has been scattered widely.
-    is_indirect: bool,
-    others: f32,
+    pub(in crate::integrator) is_indirect: bool,
+    pub(in crate::integrator) others: f32,
 }
 
 impl Photon<'_> {
     /// Whether it is kept where it is now, if that is not singular.
-    fn lands(&self) -> bool {
+    pub(in crate::integrator) fn lands(&self) -> bool {
         // What comes straight, also through straight shadows, the receiver's shadow rays bring.
         self.vertices > 0 && !self.comes_straight
+    }
+
+    /// Whether beams of its way are kept, if it leaves any.
+    pub(in crate::integrator) fn beams_count(&self) -> bool {
+        self.lands() || self.vertices == 0 && !self.sender.is_aimed
+    }
+
+    /// Where it comes from, if straight from there.
+    pub(in crate::integrator) fn straight_from(&self) -> Option<Origin> {
+        (self.vertices == 0).then_some(self.origin)
     }
 
     fn landed(&self, flux: Spectrum) -> LandedPhoton {
@@ -300,7 +335,6 @@ impl Photon<'_> {
 
     /// Roulette after a vertex: what goes on carries about as much as at first.
     fn survives(&mut self, world: &World, sampler: &mut Sampler) -> bool {
-        self.vertices += 1;
         let left = self.flux.max_lane(world.lanes) / self.full;
         let survival = if self.vertices > PATIENCE { left.min(0.9) } else { left.min(1.0) };
         // Compared this way round, what is not a number ends the photon.

@@ -29,13 +29,14 @@ use super::per_pixel::CameraRays;
 use super::{Integrator, Pass, Prepared, RenderSettings, View};
 use crate::photon::radius;
 use crate::stats::Stats;
+pub(super) use beams::{Beam, Passing};
 use hyaline_film::{PixelSample, Rect};
 use hyaline_world::World;
-use landed::Landed;
-pub(super) use landed::LandedPhoton;
-use light::Light;
-pub(super) use sender::BEAM_SHARE;
-use sender::Senders;
+pub(super) use landed::{Landed, LandedPhoton};
+pub(super) use light::Light;
+#[cfg(test)]
+pub(super) use light::Photon;
+pub(super) use sender::{BEAM_SHARE, Senders};
 use std::sync::atomic::AtomicBool;
 
 /// Path tracing and photon merging.
@@ -54,7 +55,8 @@ impl Integrator for MergingIntegrator {
         _cancel: &AtomicBool,
         _stats: &mut Stats,
     ) -> Box<dyn Prepared + 'w> {
-        Box::new(Merging { world, view: *view, settings: *settings, senders: Senders::new(world, view) })
+        let senders = Senders::new(world, view, settings.techniques.merging);
+        Box::new(Merging { world, view: *view, settings: *settings, senders })
     }
 }
 

@@ -1,5 +1,6 @@
 //! Where a photon comes from, as far as weights ask.
 
+use crate::Techniques;
 use crate::direct;
 use crate::photon::PhotonStart;
 use hyaline_geometry::SurfaceHit;
@@ -10,32 +11,38 @@ use hyaline_world::light::Light;
 /// The start of a photon.
 #[derive(Clone, Copy, Debug)]
 pub(in crate::integrator) struct Origin {
-    light: u32,
-    p: Vec3,
+    pub(in crate::integrator) light: u32,
+    pub(in crate::integrator) p: Vec3,
     p_error: f32,
     /// Outward normal of the light; `None` without a surface.
-    n: Option<Vec3>,
+    pub(in crate::integrator) n: Option<Vec3>,
     /// The factor of the light, see `weight`.
     at_light: f32,
+    /// Which ways other than merging count.
+    techniques: Techniques,
     /// Whether no path hits the light: sampling it then stands where drawing a direction toward it would.
     pub(in crate::integrator) is_delta: bool,
 }
 
 impl Origin {
-    pub(super) fn new(world: &World, start: &PhotonStart, at_light: f32) -> Self {
+    pub(super) fn new(world: &World, start: &PhotonStart, at_light: f32, techniques: Techniques) -> Self {
         let PhotonStart { light, origin: p, p_error, n, .. } = *start;
-        Self { light, p, p_error, n, at_light, is_delta: direct::is_delta(world.lights.get(light as usize)) }
+        let is_delta = direct::is_delta(world.lights.get(light as usize));
+        Self { light, p, p_error, n, at_light, techniques, is_delta }
     }
 
     /// Square of the density of hitting the light over its factor.
     pub(super) fn hit(&self) -> f32 {
-        if self.is_delta { 0.0 } else { (self.at_light * self.at_light).recip() }
+        if self.is_delta || !self.techniques.hits { 0.0 } else { (self.at_light * self.at_light).recip() }
     }
 
     /// Density of sampling the light from the first vertex over the light's factor.
     ///
     /// - `p`: the vertex; `toward`: unit, from there to the light.
     pub(in crate::integrator) fn sampled(&self, world: &World, p: Vec3, toward: Vec3) -> f32 {
+        if !self.techniques.sampling {
+            return 0.0;
+        }
         let light = world.lights.get(self.light as usize);
         let chance = world.lights.direct().probability(self.light as usize);
         match light {

@@ -24,25 +24,26 @@ pub(in crate::integrator) const BEAM_SHARE: f32 = 1.0 / PHOTONS_PER_BEAM as f32;
 
 /// One kind of photons.
 pub(in crate::integrator) struct Sender<'w> {
-    pub(super) emitter: PhotonEmitter<'w>,
+    pub(in crate::integrator) emitter: PhotonEmitter<'w>,
     /// Photons that a pass sends out.
-    pub(super) count: u32,
+    pub(in crate::integrator) count: u32,
     /// Whether the first vertex of its photons passes them on as polished ones do.
-    pub(super) is_aimed: bool,
+    pub(in crate::integrator) is_aimed: bool,
 }
 
 /// Both kinds.
 pub(in crate::integrator) struct Senders<'w> {
-    pub(super) aimed: Sender<'w>,
-    pub(super) broad: Sender<'w>,
+    pub(in crate::integrator) aimed: Sender<'w>,
+    pub(in crate::integrator) broad: Sender<'w>,
 }
 
 impl<'w> Senders<'w> {
-    pub(super) fn new(world: &'w World, view: &View) -> Self {
+    /// - `is_on`: whether photons are sent at all.
+    pub(in crate::integrator) fn new(world: &'w World, view: &View, is_on: bool) -> Self {
         let pixels = view.width * view.height;
         let sender = |maps, share: u32, is_aimed| {
             let emitter = PhotonEmitter::new(world, maps, PROJECTION_CELLS);
-            let count = if emitter.fraction() > 0.0 {
+            let count = if is_on && emitter.fraction() > 0.0 {
                 (share * pixels).clamp(1 << 12, 1 << 20).next_multiple_of(PHOTONS_PER_BEAM)
             } else {
                 0

@@ -1,0 +1,119 @@
+//! Each way to find light, alone: what the others are weighed against it for, it does by itself where it can.
+
+mod pictures;
+mod scene_kit;
+
+use hyaline_math::DVec3;
+use hyaline_scene::*;
+use hyaline_testkit::Moments;
+use hyaline_transport::{RenderSettings, Techniques};
+use hyaline_world::World;
+use pictures::{Shot, assert_same, luminance};
+use scene_kit::*;
+use std::ops::Range;
+
+/// Pictures made of each scene.
+const SEEDS: u64 = 12;
+/// Passes so late that blur is small, and as many of them as the noisier ways need.
+const LATE: Range<u32> = 62_500..62_524;
+/// Relative error of a mean above which nothing would be shown.
+const POWER: f64 = 0.02;
+
+const ALL: Techniques = Techniques { hits: true, sampling: true, merging: true };
+
+/// Mean of a picture by some of the ways, for `SEEDS` seeds; different ways draw different numbers.
+fn means(world: &World, techniques: Techniques, first_seed: u64) -> Moments {
+    let mut moments = Moments::new();
+    for seed in first_seed..first_seed + SEEDS {
+        let settings = RenderSettings { seed, techniques, ..settings() };
+        let shot = Shot { world, integrator: "merging", settings, size: (16, 16) };
+        let (mut sum, mut count) = (0.0, 0);
+        shot.render(shot.full_frame(), LATE, |_, samples| {
+            sum += samples.iter().map(luminance).sum::<f64>();
+            count += samples.len();
+        });
+        moments.push(sum / f64::from(count as u32));
+    }
+    moments
+}
+
+/// Fails unless the picture is the same in the mean without each of these ways.
+fn assert_same_without(world: &World, ways: &[(&str, Techniques)], what: &str) {
+    let whole = means(world, ALL, 0);
+    for (index, (name, techniques)) in ways.iter().enumerate() {
+        let part = means(world, *techniques, 100 * (index as u64 + 1));
+        assert_same(&whole, &part, POWER, &format!("{what}, without {name}"));
+    }
+}
+
+/// A lamp that paths hit often, so that each way alone is good enough to be tested.
+fn large_lamp(kit: &mut SceneKit) {
+    kit.lamp("lamp", sphere(DVec3::new(-0.6, 0.9, 0.3), 0.6), 1.0);
+}
+
+/// A ball of ground glass and one of polished, so that all three ways meet: at the ground one lamps are sampled, hit and
+/// merged.
+fn ground_and_polished(lamp: impl FnOnce(&mut SceneKit)) -> SceneKit {
+    let mut kit = hollow(lamp);
+    let white = || ColorSource::Constant([1.0; 3]);
+    let ground =
+        MaterialKind::Dielectric { roughness: ScalarSource::Constant(0.4), tint: (white(), white()) };
+    kit.material("ground", ground);
+    let boundary = BoundaryDescription::Solid { medium: "glass".into() };
+    kit.object("frosted", sphere(DVec3::new(-0.6, -0.5, -0.9), 0.5), boundary, "ground");
+    kit
+}
+
+#[test]
+fn lamps_are_found_as_well_without_hits_samples_or_photons() {
+    let world = ground_and_polished(large_lamp).world();
+    let ways = [
+        ("hits", Techniques { hits: false, ..ALL }),
+        ("samples", Techniques { sampling: false, ..ALL }),
+        ("photons", Techniques { merging: false, ..ALL }),
+        ("hits and photons", Techniques { hits: false, merging: false, ..ALL }),
+    ];
+    assert_same_without(&world, &ways, "lamp");
+}
+
+#[test]
+fn the_sky_is_found_as_well_without_hits_samples_or_photons() {
+    let mut kit = SceneKit::new();
+    kit.matte("matte", 0.6).surface("floor", floor(-0.6, 3.0), "matte");
+    kit.medium("glass", 1.5).solid("ball", sphere(DVec3::new(0.0, 0.0, -0.4), 0.5), "glass");
+    kit.sky(1.0).camera(DVec3::new(0.0, 0.8, 2.0), DVec3::new(0.0, -0.4, -0.3));
+    let ways = [
+        ("hits", Techniques { hits: false, ..ALL }),
+        ("samples", Techniques { sampling: false, ..ALL }),
+        ("photons", Techniques { merging: false, ..ALL }),
+    ];
+    assert_same_without(&kit.world(), &ways, "sky");
+}
+
+#[test]
+fn points_are_found_by_photons_alone_behind_ground_glass() {
+    let kit = ground_and_polished(|kit| {
+        kit.light(LightKind::Point { position: DVec3::new(-0.6, 0.9, 0.3), intensity: [2.0; 3] });
+    });
+    let ways = [("samples", Techniques { sampling: false, ..ALL })];
+    assert_same_without(&kit.world(), &ways, "point");
+}
+
+#[test]
+fn in_fog_each_way_finds_the_lamp() {
+    let mut kit = hollow(large_lamp);
+    let scattering = Scattering { sigma_s: [0.3; 3], phase: PhaseDescription::from_mean_cosine(0.4) };
+    let fog = MediumDescription {
+        absorption: Absorption::SigmaA([0.05; 3]),
+        scattering: Some(scattering),
+        ..MediumDescription::clear("fog", IndexDescription::Constant(1.0))
+    };
+    kit.description.media.push(fog.into());
+    kit.description.surrounding = Some("fog".into());
+    let ways = [
+        ("hits", Techniques { hits: false, ..ALL }),
+        ("samples", Techniques { sampling: false, ..ALL }),
+        ("photons", Techniques { merging: false, ..ALL }),
+    ];
+    assert_same_without(&kit.world(), &ways, "fog");
+}
