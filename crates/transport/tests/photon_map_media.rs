@@ -182,7 +182,8 @@ fn a_ball_gathers_light_of_every_kind_of_lamp_in_the_fog_behind_it() {
     let area = |kit: &mut SceneKit| {
         kit.lamp("lamp", square_lamp(above, 0.1), 100.0);
     };
-    let lamps: [(&str, &dyn Fn(&mut SceneKit)); 3] = [("point", &point), ("spot", &spot), ("area", &area)];
+    type Lamp<'a> = (&'a str, &'a dyn Fn(&mut SceneKit));
+    let lamps: [Lamp<'_>; 3] = [("point", &point), ("spot", &spot), ("area", &area)];
     for (what, lamp) in lamps {
         let mut kit = SceneKit::new();
         kit.medium("glass", 1.5).solid("ball", sphere(DVec3::ZERO, 0.5), "glass");

@@ -22,7 +22,7 @@ impl Eye<'_> {
         if !self.part_survives(path, draws) {
             return false;
         }
-        let aim = self.aim_of(path).and_then(|aim| aim.from_place(place.p));
+        let aim = self.aim_of(path).and_then(|aim| aim.at_place(place.p));
         if self.may_bounce(path) {
             if let Some(photons) = &self.photons
                 && self.world.media[place.medium.index()].grid.is_some()

@@ -33,7 +33,7 @@ impl Eye<'_> {
             return false;
         }
         let is_wide = !is_specular(&vertex.bsdf);
-        let aim = self.aim_of(path).filter(|_| is_wide).and_then(|aim| aim.from_surface(vertex, wo));
+        let aim = self.aim_of(path).filter(|_| is_wide).and_then(|aim| aim.at_surface(vertex, wo));
         if !is_delta && self.may_bounce(path) {
             if let Some(photons) = &self.photons {
                 path.light += path.throughput * self.gather(path, vertex, wo, photons);

@@ -60,7 +60,7 @@ impl Aim {
     /// The cones that a surface tries; `None` where aim would not help.
     ///
     /// - `wo`: where the path came from, unit.
-    pub(super) fn from_surface(&self, vertex: &Vertex, wo: Vec3) -> Option<Cones> {
+    pub(super) fn at_surface(&self, vertex: &Vertex, wo: Vec3) -> Option<Cones> {
         if !vertex.bsdf.is_opaque() {
             return None;
         }
@@ -69,7 +69,7 @@ impl Aim {
     }
 
     /// The cones that a particle of a medium tries.
-    pub(super) fn from_place(&self, p: Vec3) -> Option<Cones> {
+    pub(super) fn at_place(&self, p: Vec3) -> Option<Cones> {
         self.cones(p, |_| true)
     }
 
