@@ -6,7 +6,6 @@
 //! 3. If the vertex is not singular, gather the photons about it, sample a light, and add what reaches the vertex.
 //! 4. Go on in a direction drawn from the BSDF or phase function, or aimed (`aim`). Singular crossings are free: there is
 //!    no limit on them.
-//!    At the first polished surfaces both ways are gone (`split`).
 //! 5. Weak paths end by roulette on their throughput without the n² factor, so none dies for being inside glass.
 
 pub(super) mod aim;
@@ -15,7 +14,6 @@ mod hit;
 mod merges;
 pub(super) mod place;
 pub(super) mod radius;
-mod split;
 mod surface;
 #[cfg(test)]
 mod tests;
@@ -72,17 +70,8 @@ struct Path {
     bounces: u32,
     /// Singular events in a row.
     crossings: u32,
-    /// Whether it is a part of one that has been split.
-    is_part: bool,
     /// Light found so far.
     light: Spectrum,
-}
-
-impl Path {
-    /// Another part of the path, where it is split; it has found no light of its own.
-    fn part(&self) -> Self {
-        Self { set: self.set.clone(), light: Spectrum::ZERO, is_part: true, ..*self }
-    }
 }
 
 impl Eye<'_> {
@@ -96,22 +85,7 @@ impl Eye<'_> {
         draws: &mut Draws<'_>,
         mut first: Option<&mut PixelSample>,
     ) -> Spectrum {
-        let mut waiting = Vec::new();
-        let mut light = self.follow(self.start(ray, set), draws, &mut first, &mut waiting);
-        while let Some(part) = waiting.pop() {
-            light += self.follow(part, draws, &mut None, &mut waiting);
-        }
-        light
-    }
-
-    /// Light that a path finds; parts that it is split into are left waiting.
-    fn follow(
-        &self,
-        mut path: Path,
-        draws: &mut Draws<'_>,
-        first: &mut Option<&mut PixelSample>,
-        waiting: &mut Vec<Path>,
-    ) -> Spectrum {
+        let mut path = self.start(ray, set);
         loop {
             let mut flown = self.walk(&mut path, draws);
             let vertex = match &mut flown {
@@ -120,7 +94,7 @@ impl Eye<'_> {
                     return path.light + path.throughput * *transmittance * self.sky(&path);
                 }
                 Flown::Scattered(place) => {
-                    *first = None;
+                    first = None;
                     match self.at_place(&mut path, place, draws) {
                         true => continue,
                         false => return path.light,
@@ -135,7 +109,7 @@ impl Eye<'_> {
                 first_hit::record(sample, vertex, &path.ray);
             }
             path.light += path.throughput * self.emitted(&path, vertex);
-            if !self.at_surface(&mut path, vertex, waiting, draws) {
+            if !self.at_surface(&mut path, vertex, draws) {
                 return path.light;
             }
         }
@@ -152,7 +126,6 @@ impl Eye<'_> {
             visible: mask::CAMERA,
             bounces: 0,
             crossings: 0,
-            is_part: false,
             light: Spectrum::ZERO,
         }
     }

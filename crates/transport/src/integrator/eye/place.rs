@@ -19,9 +19,6 @@ impl Eye<'_> {
     pub(super) fn at_place(&self, path: &mut Path, place: &VolumeVertex, draws: &mut Draws<'_>) -> bool {
         let wo = -path.ray.direction;
         path.throughput *= place.weight;
-        if !self.part_survives(path, draws) {
-            return false;
-        }
         let aim = self.aim_of(path).and_then(|aim| aim.at_place(place.p));
         if self.may_bounce(path) {
             if let Some(photons) = &self.photons

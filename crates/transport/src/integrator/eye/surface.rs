@@ -18,20 +18,9 @@ use std::f32::consts::PI;
 
 impl Eye<'_> {
     /// Gathers, samples a light and scatters; returns whether the path goes on.
-    ///
-    /// - `waiting`: receives a part of the path, where it is split.
-    pub(super) fn at_surface(
-        &self,
-        path: &mut Path,
-        vertex: &Vertex,
-        waiting: &mut Vec<Path>,
-        draws: &mut Draws<'_>,
-    ) -> bool {
+    pub(super) fn at_surface(&self, path: &mut Path, vertex: &Vertex, draws: &mut Draws<'_>) -> bool {
         let wo = -path.ray.direction;
         let is_delta = vertex.bsdf.is_delta();
-        if !is_delta && !self.part_survives(path, draws) {
-            return false;
-        }
         let is_wide = !is_specular(&vertex.bsdf);
         let aim = self.aim_of(path).filter(|_| is_wide).and_then(|aim| aim.at_surface(vertex, wo));
         if !is_delta && self.may_bounce(path) {
@@ -41,10 +30,10 @@ impl Eye<'_> {
             path.light += path.throughput * self.sampled_light(path, vertex, wo, aim.as_ref(), draws);
         }
         let (u_lobe, u) = (draws.sampler.next_1d(), draws.sampler.next_2d());
-        let scattered = self.split(path, vertex, wo, waiting).or_else(|| match &aim {
+        let scattered = match &aim {
             Some(cones) => cones.scatter(vertex, wo, u_lobe, u),
             None => vertex.bsdf.sample(wo, u_lobe, u, Transport::Radiance),
-        });
+        };
         let Some(scattered) = scattered else { return false };
         self.turn(path, vertex, &scattered);
         !path.throughput.is_zero() && self.survives(path, draws)
