@@ -67,26 +67,6 @@ impl VolumeLight<'_> {
     }
 }
 
-/// Light of one light, chosen at random, that the medium sends back along the path: an estimate of the sum over all
-/// lights.
-///
-/// - `wo`: unit, back along the path.
-/// - `set`: what the place is in.
-/// - `weight`: what sampling counts beside the other ways to find the light, for a sample and the value of the phase
-///   function.
-pub fn sample_one_light(
-    world: &World,
-    vertex: &VolumeVertex,
-    wo: Vec3,
-    set: &MediumSet,
-    weight: impl FnOnce(&LightChoice, &DirectSample, f32) -> f32,
-    sampler: &mut Sampler,
-    stats: &mut Stats,
-) -> Spectrum {
-    let VolumeVertex { p, medium, .. } = *vertex;
-    VolumeLight { world, p, medium, wo, set }.sample_one(weight, sampler, stats)
-}
-
 /// The phase function in force at a place.
 pub fn phase_at<'w>(world: &'w World, vertex: &VolumeVertex) -> &'w Phase {
     &world.media[vertex.medium.index()].phase

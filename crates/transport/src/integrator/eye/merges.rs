@@ -10,10 +10,11 @@
 //! until something lies between it and the light.
 
 use super::radius::INDIRECT;
+use hyaline_scattering::Medium;
 
 /// What kind of photons a vertex merges.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(super) enum Place {
+pub(in crate::integrator) enum Place {
     /// A surface: points, from a radius that depends on their way; none straight from a light.
     #[default]
     Surface,
@@ -21,6 +22,13 @@ pub(super) enum Place {
     Grid,
     /// A homogeneous medium: beams of any way.
     Beams,
+}
+
+impl Place {
+    /// What a particle of a medium merges. Along a way through a grid nobody knows what a beam carries.
+    pub(in crate::integrator) fn in_medium(medium: &Medium) -> Self {
+        if medium.grid.is_some() { Self::Grid } else { Self::Beams }
+    }
 }
 
 /// How the way beyond a vertex goes on to the light.

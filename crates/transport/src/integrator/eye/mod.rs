@@ -11,7 +11,7 @@
 pub(super) mod aim;
 mod along;
 mod hit;
-mod merges;
+pub(super) mod merges;
 pub(super) mod place;
 pub(super) mod radius;
 mod surface;

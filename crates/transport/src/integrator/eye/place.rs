@@ -5,7 +5,7 @@ use super::merges::{Beyond, Passed, Place};
 use super::radius::GatherRadius;
 use super::{Draws, Eye, Path, weight};
 use crate::direct::LastScatter;
-use crate::in_volume;
+use crate::in_volume::{self, VolumeLight};
 use crate::integrator::merging::{BEAM_SHARE, Photons};
 use crate::walk::VolumeVertex;
 use hyaline_math::{Ray, Vec3};
@@ -21,8 +21,9 @@ impl Eye<'_> {
         path.throughput *= place.weight;
         let aim = self.aim_of(path).and_then(|aim| aim.at_place(place.p));
         if self.may_bounce(path) {
+            let medium = &self.world.media[place.medium.index()];
             if let Some(photons) = &self.photons
-                && self.world.media[place.medium.index()].grid.is_some()
+                && Place::in_medium(medium) == Place::Grid
             {
                 path.light += path.throughput * self.gather_in_volume(path, place, wo, photons);
             }
@@ -55,8 +56,7 @@ impl Eye<'_> {
         path.last = LastScatter { sampled: Some((place.p, pdf)), is_covered: false };
         if let Some(photons) = &self.photons {
             let own = volume_factor(self.world, place, &photons.radius, [wo, wi]) / pdf;
-            let is_beam = self.world.media[place.medium.index()].grid.is_none();
-            let place = if is_beam { Place::Beams } else { Place::Grid };
+            let place = Place::in_medium(&self.world.media[place.medium.index()]);
             path.merges.pass(&Passed { place, own, across: 1.0, is_specular: false });
         }
         path.ray = Ray { time: path.ray.time, ..Ray::new(place.p, wi) };
@@ -108,7 +108,9 @@ impl Eye<'_> {
             let pdf = aim.map_or(phase, |cones| cones.density(phase, sample.wi));
             self.sample_weight_in_volume(path, place, wo, choice, sample, [phase, pdf])
         };
-        in_volume::sample_one_light(self.world, place, wo, &path.set, weight, draws.sampler, draws.stats)
+        let VolumeVertex { p, medium, .. } = *place;
+        let place = VolumeLight { world: self.world, p, medium, wo, set: &path.set };
+        place.sample_one(weight, draws.sampler, draws.stats)
     }
 
     /// What sampling a light counts beside hitting it and merging.
@@ -130,13 +132,10 @@ impl Eye<'_> {
         let merging = self.photons.as_ref().map_or(0.0, |photons| {
             let light =
                 photons.senders.of(false).density_of_sample(self.world, choice.index, sample, &path.set);
-            let own = match self.world.media[place.medium.index()].grid {
-                Some(_) => 0.0,
-                None => {
-                    let ways = [wo, sample.wi];
-                    volume_factor(self.world, place, &photons.radius, ways)
-                        / (sample.pdf_w * choice.probability)
-                }
+            // A photon straight from the light is merged as a beam alone.
+            let own = match Place::in_medium(&self.world.media[place.medium.index()]) {
+                Place::Beams => volume_factor(self.world, place, &photons.radius, [wo, sample.wi]) / density,
+                Place::Grid | Place::Surface => 0.0,
             };
             let behind = path.merges.behind(Beyond::Wide);
             (behind * across * across + own * own) * light * light
@@ -175,7 +174,7 @@ pub(in crate::integrator) fn volume_factor(
     ways: [Vec3; 2],
 ) -> f32 {
     let medium = &world.media[place.medium.index()];
-    if medium.grid.is_some() {
+    if Place::in_medium(medium) == Place::Grid {
         return point_factor(world, place, radius.in_volume(place.p));
     }
     let sin = ways[0].cross(ways[1]).length();

@@ -1,6 +1,7 @@
 //! How far photons are gathered from: a few pixels, as large as they are there.
 
-use hyaline_math::{Bounds, DVec3, Vec3};
+use crate::photon::radius::Shrink;
+use hyaline_math::{Bounds, Vec3};
 use hyaline_world::camera::{Camera, PixelSpread};
 
 /// Gather radius in pixels, before it shrinks.
@@ -16,14 +17,13 @@ pub(in crate::integrator) struct GatherRadius {
     spread: PixelSpread,
     camera: Vec3,
     /// What this pass makes of it, on surfaces and in volumes.
-    shrink: crate::photon::radius::Shrink,
+    shrink: Shrink,
 }
 
 impl GatherRadius {
     /// Of one pass.
-    pub(in crate::integrator) fn new(camera: &Camera, shrink: crate::photon::radius::Shrink) -> Self {
-        let position: DVec3 = camera.position();
-        Self { spread: camera.spread(), camera: position.as_vec3(), shrink }
+    pub(in crate::integrator) fn new(camera: &Camera, shrink: Shrink) -> Self {
+        Self { spread: camera.spread(), camera: camera.position().as_vec3(), shrink }
     }
 
     /// On surfaces, scene units, for photons that come over polished surfaces alone; others are gathered from [`INDIRECT`]
@@ -45,12 +45,16 @@ impl GatherRadius {
     /// The largest radius of beams anywhere in a box, and within that radius of it.
     pub(in crate::integrator) fn of_beams_within(&self, bounds: &Bounds) -> f32 {
         let farthest = (bounds.min - self.camera).abs().max((bounds.max - self.camera).abs());
-        let there = PIXELS * (self.spread.width + self.spread.angle * farthest.length()) * self.shrink.beam;
-        // Nearer to the far end of the radius itself it is larger by what the radius grows on the way.
+        let there = self.at_distance(farthest.length()) * self.shrink.beam;
+        // A ray within the radius of the box may be farther off than the box, and its radius larger by as much.
         there / (1.0 - PIXELS * self.spread.angle * self.shrink.beam).max(0.1)
     }
 
     fn before_it_shrinks(&self, p: Vec3) -> f32 {
-        PIXELS * (self.spread.width + self.spread.angle * p.distance(self.camera))
+        self.at_distance(p.distance(self.camera))
+    }
+
+    fn at_distance(&self, distance: f32) -> f32 {
+        PIXELS * (self.spread.width + self.spread.angle * distance)
     }
 }

@@ -98,8 +98,18 @@ impl Eye<'_> {
         photons: &Photons<'_>,
     ) -> [Gather<'a>; 2] {
         let radius = photons.radius.on_surface(vertex.hit.p);
-        let caustic = Gather { eye: self, path, vertex, wo, radius, beyond: beyond(vertex) };
-        [caustic, Gather { radius: radius * INDIRECT, beyond: Beyond::Wide, ..caustic }]
+        let caustic = Gather {
+            eye: self,
+            path,
+            vertex,
+            wo,
+            radius,
+            behind: path.merges.behind(beyond(vertex)),
+            bounces_left: self.bounces_left(path),
+            ior_before: self.world.ior(path.set.active()),
+        };
+        let behind = path.merges.behind(Beyond::Wide);
+        [caustic, Gather { radius: radius * INDIRECT, behind, ..caustic }]
     }
 
     /// Light of one light, chosen at random, by a shadow ray.
@@ -186,8 +196,12 @@ pub(super) struct Gather<'a> {
     /// Unit, back along the path.
     wo: Vec3,
     radius: f32,
-    /// The way from the path's earlier vertices over this one to the light.
-    beyond: Beyond,
+    /// Merges at earlier vertices of the path, see `Merges::behind`.
+    behind: f32,
+    /// Bounces that photons may have made, and one more.
+    bounces_left: u32,
+    /// Index on the side that the path came from.
+    ior_before: f32,
 }
 
 impl Gather<'_> {
@@ -196,7 +210,7 @@ impl Gather<'_> {
         let wi = -photon.direction;
         let (f, pdf) = self.vertex.bsdf.eval_with_pdf(self.wo, wi, Transport::Radiance);
         let cos = wi.dot(self.vertex.hit.ng).abs();
-        if f.is_zero() || cos == 0.0 || photon.bounces >= self.eye.bounces_left(self.path) {
+        if f.is_zero() || cos == 0.0 || photon.bounces >= self.bounces_left {
             return Spectrum::ZERO;
         }
         f * photon.flux * (self.weight_of(wi, pdf, photon.others) / cos)
@@ -207,18 +221,17 @@ impl Gather<'_> {
     /// - `wi`: unit, against the photon; `pdf`: its density for the path, sr⁻¹.
     /// - `others`: what the photon's side knows of them.
     pub(super) fn weight_of(&self, wi: Vec3, pdf: f32, mut others: f32) -> f32 {
-        let Self { eye, path, vertex, wo, .. } = *self;
-        let ior_before = eye.world.ior(path.set.active());
+        let Self { eye, path, vertex, wo, ior_before, .. } = *self;
         let ior = match crosses(vertex, wo, wi) {
             true => eye.world.ior(vertex.far_set(eye.world, &path.set).active()),
             false => ior_before,
         };
         let toward_light = side(vertex, wi, pdf, ior);
         let own = weight::at_receiver(self.radius, ior, toward_light.cos, toward_light.pdf);
-        if !path.merges.is_empty() {
+        if self.behind > 0.0 {
             let back = side(vertex, wo, vertex.bsdf.pdf(wi, wo), ior_before);
             let across = weight::across(back, toward_light);
-            others += path.merges.behind(self.beyond) * across * across;
+            others += self.behind * across * across;
         }
         weight::power(others / (own * own))
     }

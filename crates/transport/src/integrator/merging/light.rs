@@ -9,6 +9,7 @@ use super::origin::Origin;
 use super::sender::{BEAM_SHARE, Sender, Senders};
 use crate::RenderSettings;
 use crate::in_volume;
+use crate::integrator::eye::merges::Place;
 use crate::integrator::eye::place::volume_factor;
 use crate::integrator::eye::radius::{GatherRadius, INDIRECT};
 use crate::integrator::eye::weight::{self, Side};
@@ -214,7 +215,8 @@ impl Light<'_> {
         chunk: &mut Chunk,
     ) -> bool {
         photon.flux *= place.weight;
-        if photon.lands() && self.world.media[place.medium.index()].grid.is_some() {
+        let medium = &self.world.media[place.medium.index()];
+        if photon.lands() && Place::in_medium(medium) == Place::Grid {
             chunk.points.volume.push((place.p, photon.landed(photon.flux)));
         }
         let may_scatter = if photon.vertices == 0 { !photon.sender.is_aimed } else { !photon.comes_straight };
@@ -239,7 +241,7 @@ impl Light<'_> {
         pdf: f32,
     ) {
         let wo = -photon.ray.direction;
-        let is_beam = self.world.media[place.medium.index()].grid.is_none();
+        let is_beam = Place::in_medium(&self.world.media[place.medium.index()]) == Place::Beams;
         let own = volume_factor(self.world, place, &self.radius, [wo, wi]) / pdf;
         let merges = photon.vertices > 0 || is_beam;
         photon.pass(self.world, place.p, pdf, if merges { own } else { 0.0 }, 1.0);
