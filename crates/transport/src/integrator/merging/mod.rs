@@ -23,6 +23,7 @@ mod light;
 mod origin;
 mod sender;
 
+use super::eye::aim::Aim;
 use super::eye::radius::GatherRadius;
 use super::eye::{Draws, Eye};
 use super::per_pixel::CameraRays;
@@ -56,7 +57,8 @@ impl Integrator for MergingIntegrator {
         _stats: &mut Stats,
     ) -> Box<dyn Prepared + 'w> {
         let senders = Senders::new(world, view, settings.techniques.merging);
-        Box::new(Merging { world, view: *view, settings: *settings, senders })
+        let aim = (!senders.any()).then(|| Aim::new(world));
+        Box::new(Merging { world, view: *view, settings: *settings, senders, aim })
     }
 }
 
@@ -66,11 +68,13 @@ struct Merging<'w> {
     view: View,
     settings: RenderSettings,
     senders: Senders<'w>,
+    /// Where no photons are sent, paths aim as those of `path` do.
+    aim: Option<Aim>,
 }
 
 impl Prepared for Merging<'_> {
     fn begin_pass<'a>(&'a self, pass: u32, stats: &mut Stats) -> Box<dyn Pass + 'a> {
-        let Self { world, view, settings, senders } = self;
+        let Self { world, view, settings, senders, .. } = self;
         let radius = GatherRadius::new(&world.cameras[view.camera], radius::Shrink::of_pass(pass));
         let landed = Light { world, senders, settings, radius }.trace(pass, stats);
         Box::new(MergingPass { merging: self, pass, landed, radius })
@@ -95,10 +99,10 @@ struct MergingPass<'a> {
 
 impl Pass for MergingPass<'_> {
     fn render_tile(&self, tile: Rect, samples: &mut [PixelSample], stats: &mut Stats) {
-        let Merging { world, view, settings, senders } = self.merging;
+        let Merging { world, view, settings, senders, aim } = self.merging;
         let camera = CameraRays { world, view, settings, pass: self.pass };
         let photons = senders.any().then_some(Photons { senders, landed: &self.landed, radius: self.radius });
-        let eye = Eye { world, settings, aim: None, photons };
+        let eye = Eye { world, settings, aim: aim.as_ref(), photons };
         camera.render_tile(tile, samples, |ray, set, sampler, sample| {
             eye.radiance(ray, set, &mut Draws { sampler, stats }, Some(sample))
         });
