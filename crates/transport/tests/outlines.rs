@@ -4,10 +4,15 @@ mod following;
 mod scene_kit;
 
 use following::ray;
-use hyaline_math::DVec3;
 use hyaline_math::float::f64 as float;
+use hyaline_math::{DVec3, Ray};
+use hyaline_sampling::{Sampler, SamplerKind};
+use hyaline_scattering::{MediumSet, Transport};
 use hyaline_scene::{MeshData, ShapeDescription};
 use hyaline_testkit::Random;
+use hyaline_transport::Stats;
+use hyaline_transport::walk::{self, Event};
+use hyaline_world::{World, mask};
 use scene_kit::*;
 use std::collections::BTreeMap;
 
@@ -63,4 +68,53 @@ fn what_is_entered_at_an_outline_is_left_there() {
     // incidence the far face of an outline is within the error of the near one, measured along the ray.
     kit.solid("other", cuboid(DVec3::new(-0.8, 0.9, 0.8), DVec3::splat(2.0)), "water");
     assert_invisible(&kit, mesh, "beside another body");
+}
+
+/// Follows a chain of refractions and reflections until it gets away; returns what it is in then, and the vertices met.
+fn get_away(world: &World, ray: Ray, index: u32) -> Option<(MediumSet, u32)> {
+    let mut sampler = Sampler::new(SamplerKind::Independent, 5, (index, 0), 0);
+    let (mut ray, mut set) = (ray, world.camera_media[0].clone());
+    for met in 0..256 {
+        let event = walk::advance(world, &ray, mask::PATH, &mut set, &mut Stats::default());
+        let Event::Surface(vertex) = event else { return Some((set, met)) };
+        let (u_lobe, u) = (sampler.next_1d(), sampler.next_2d());
+        let scattered = vertex.bsdf.sample(-ray.direction, u_lobe, u, Transport::Radiance)?;
+        if scattered.transmits {
+            vertex.commit(world, &mut set);
+        }
+        ray = vertex.leave(scattered.wi, 0.0);
+    }
+    None
+}
+
+#[test]
+fn chains_aimed_at_vertices_and_edges_leave_all_that_they_enter() {
+    for scale in [1e-3_f64, 1.0, 1e4] {
+        let center = DVec3::new(0.37, -1.2, 0.55) * scale;
+        let ball = ball_mesh(center.as_vec3(), scale as f32, 16);
+        let ShapeDescription::Mesh { mesh, .. } = &ball else { unreachable!() };
+        let edges = edges(mesh);
+        let mut kit = SceneKit::new();
+        kit.medium("glass", 1.5).camera(center + DVec3::Z * (9.0 * scale), center);
+        // Shading normals are not reversible and may trap light for good: that is another matter.
+        kit.solid("ball", ShapeDescription::Mesh { mesh: mesh.clone(), flat: true }, "glass");
+        let world = kit.world();
+        let mut random = Random::from_seed(6);
+        let (mut entered, mut trapped) = (0, 0);
+        for index in 0..100_000 {
+            let ([a, b], _) = edges[random.bits() as usize % edges.len()];
+            let target = [a, 0.5 * (a + b), a.lerp(b, random.uniform())][random.bits() as usize % 3];
+            let origin = center + DVec3::from_array(random.direction()) * (3.0 * scale);
+            let Some((set, met)) = get_away(&world, ray(origin, target - origin), index) else {
+                trapped += 1;
+                continue;
+            };
+            entered += u32::from(met > 1);
+            assert_eq!(set, world.camera_media[0], "scale {scale}, chain {index}, after {met} vertices");
+        }
+        assert!(
+            entered > 50_000 && trapped < 100,
+            "scale {scale}: {entered} entered, {trapped} did not get away"
+        );
+    }
 }

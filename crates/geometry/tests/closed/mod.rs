@@ -95,6 +95,10 @@ impl Closed {
 
     /// Follows a chain of refractions and reflections from outside, at an index of 1.5, with up to `limit` rays;
     /// returns the rays traced, and whether each crossing fits the side that the path was on.
+    #[allow(
+        dead_code,
+        reason = "the example's alone: where light ends up is a matter of medium sets, not of meshes"
+    )]
     pub(crate) fn follow(&self, random: &mut Random, limit: usize) -> (usize, bool) {
         let mut ray = self.ray_from_outside(random);
         let mut is_inside = false;
