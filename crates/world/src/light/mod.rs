@@ -239,6 +239,14 @@ impl Light {
         }
     }
 
+    /// Whether rays come to it by themselves: it has a surface or is an environment.
+    pub fn can_be_met(&self) -> bool {
+        match self {
+            Self::Shape(_) | Self::Mesh(_) | Self::Environment(_) => true,
+            Self::Point(_) | Self::Spot(_) | Self::Projector(_) | Self::Directional(_) => false,
+        }
+    }
+
     /// Whether it is a surface that shines on both sides.
     pub fn is_two_sided(&self) -> bool {
         match self {

@@ -15,6 +15,7 @@ pub const DIRECT_UNIFORM_SHARE: f32 = 0.5;
 pub struct LightSet {
     lights: Vec<Light>,
     environments: Vec<u32>,
+    any_can_be_met: bool,
     direct: LightSampler,
     emission: LightSampler,
 }
@@ -29,6 +30,7 @@ impl LightSet {
         let environments = (0..).zip(&lights).filter(|(_, light)| is_environment(light)).map(|(i, _)| i);
         Self {
             environments: environments.collect(),
+            any_can_be_met: lights.iter().any(Light::can_be_met),
             direct: LightSampler::new(&powers, DIRECT_UNIFORM_SHARE),
             emission: LightSampler::new(&powers, 0.0),
             lights,
@@ -46,6 +48,11 @@ impl LightSet {
     /// Where there is no such light.
     pub fn get(&self, index: usize) -> &Light {
         &self.lights[index]
+    }
+
+    /// Whether there is a light that rays come to by themselves: one with a surface, or an environment.
+    pub fn any_can_be_met(&self) -> bool {
+        self.any_can_be_met
     }
 
     /// Indices of the lights that rays meet where they meet nothing else.

@@ -5,7 +5,7 @@
 //! 2. If the surface shines, add its light, weighed against the other ways to find it.
 //! 3. If the vertex is not singular, gather the photons about it, sample a light, and add what reaches the vertex.
 //! 4. Go on in a direction drawn from the BSDF or phase function, or aimed (`aim`). Singular crossings are free: there is
-//!    no limit on them.
+//!    no limit on them. At the first polished surfaces both ways are gone (`split`).
 //! 5. Weak paths end by roulette on their throughput without the n² factor, so none dies for being inside glass.
 
 pub(super) mod aim;
@@ -14,6 +14,7 @@ mod hit;
 pub(super) mod merges;
 pub(super) mod place;
 pub(super) mod radius;
+mod split;
 mod surface;
 #[cfg(test)]
 mod tests;
@@ -35,6 +36,7 @@ use hyaline_scattering::MediumSet;
 use hyaline_spectrum::Spectrum;
 use hyaline_world::{World, mask};
 use merges::Merges;
+use split::Arrived;
 
 /// Scatterings of a path that are aimed, at most.
 const AIMED_BOUNCES: u32 = 2;
@@ -56,6 +58,7 @@ pub(super) struct Draws<'a> {
 }
 
 /// A path under way.
+#[derive(Clone)]
 struct Path {
     ray: Ray,
     set: MediumSet,
@@ -85,33 +88,61 @@ impl Eye<'_> {
         draws: &mut Draws<'_>,
         mut first: Option<&mut PixelSample>,
     ) -> Spectrum {
-        let mut path = self.start(ray, set);
+        let path = self.start(ray, set);
+        if !self.world.lights.any_can_be_met() {
+            return self.follow(path, draws, &mut first);
+        }
+        let (light, arrived) = self.over_polished(path, draws, &mut first);
+        let Some(Arrived { mut path, at }) = arrived else { return light };
+        match self.scatter(&mut path, &at, draws) {
+            true => light + self.follow(path, draws, &mut first),
+            false => light + path.light,
+        }
+    }
+
+    /// Follows a path to its end; returns the light that it has found.
+    fn follow(
+        &self,
+        mut path: Path,
+        draws: &mut Draws<'_>,
+        first: &mut Option<&mut PixelSample>,
+    ) -> Spectrum {
         loop {
-            let mut flown = self.walk(&mut path, draws);
-            let vertex = match &mut flown {
-                Flown::Arrived(Event::Surface(vertex)) => vertex,
-                Flown::Arrived(Event::Sky { transmittance }) => {
-                    return path.light + path.throughput * *transmittance * self.sky(&path);
-                }
-                Flown::Scattered(place) => {
-                    first = None;
-                    match self.at_place(&mut path, place, draws) {
-                        true => continue,
-                        false => return path.light,
-                    }
-                }
-            };
-            if path.crossings > PATIENCE_WITH_SHADING_NORMALS {
-                vertex.bsdf = vertex.bsdf.without_shading_normal();
-            }
-            path.throughput *= vertex.transmittance;
-            if let Some(sample) = first.take() {
-                first_hit::record(sample, vertex, &path.ray);
-            }
-            path.light += path.throughput * self.emitted(&path, vertex);
-            if !self.at_surface(&mut path, vertex, draws) {
+            let mut at = self.walk(&mut path, draws);
+            if !self.arrive(&mut path, &mut at, first) || !self.scatter(&mut path, &at, draws) {
                 return path.light;
             }
+        }
+    }
+
+    /// Adds the light that the path has come to; returns whether there is something that may scatter it.
+    fn arrive(&self, path: &mut Path, at: &mut Flown, first: &mut Option<&mut PixelSample>) -> bool {
+        match at {
+            Flown::Arrived(Event::Sky { transmittance }) => {
+                path.light += path.throughput * *transmittance * self.sky(path);
+                return false;
+            }
+            Flown::Arrived(Event::Surface(vertex)) => {
+                if path.crossings > PATIENCE_WITH_SHADING_NORMALS {
+                    vertex.bsdf = vertex.bsdf.without_shading_normal();
+                }
+                path.throughput *= vertex.transmittance;
+                if let Some(sample) = first.take() {
+                    first_hit::record(sample, vertex, &path.ray);
+                }
+                path.light += path.throughput * self.emitted(path, vertex);
+            }
+            Flown::Scattered(_) => *first = None,
+        }
+        true
+    }
+
+    /// Gathers, samples a light and scatters, on a surface or in a medium; returns whether the path goes on.
+    fn scatter(&self, path: &mut Path, at: &Flown, draws: &mut Draws<'_>) -> bool {
+        match at {
+            Flown::Arrived(Event::Sky { .. }) => false,
+            Flown::Arrived(Event::Surface(vertex)) => self.at_surface(path, vertex, draws),
+            Flown::Scattered(place) => self.at_place(path, place, draws),
         }
     }
 
