@@ -1,5 +1,8 @@
 //! Integrators: how light is carried from lights to the camera.
 
+#[cfg(test)]
+extern crate self as hyaline_transport;
+
 pub mod direct;
 pub mod first_hit;
 pub mod in_volume;

@@ -10,6 +10,8 @@ pub struct Stats {
     pub rays: u64,
     /// Photons emitted.
     pub photons: u64,
+    /// Photons that `merging` looked at.
+    pub merges: u64,
     /// Branches that `whitted` cut because their weight or depth reached its limit.
     pub branches_cut: u64,
     /// Boundaries left that were never entered, by object index.
@@ -26,6 +28,7 @@ impl Stats {
     pub fn add(&mut self, other: &Stats) {
         self.rays += other.rays;
         self.photons += other.photons;
+        self.merges += other.merges;
         self.branches_cut += other.branches_cut;
         for (object, count) in &other.never_entered {
             *self.never_entered.entry(*object).or_default() += count;

@@ -2,6 +2,7 @@
 //! steps.
 
 use super::eye::aim::Aim;
+use super::eye::tally::Tally;
 use super::eye::{Draws, Eye};
 use super::per_pixel::CameraRays;
 use super::{Integrator, Pass, Prepared, RenderSettings, View};
@@ -59,7 +60,7 @@ impl Pass for PathPass<'_> {
         let camera = CameraRays { world, view, settings, pass: self.pass };
         let eye = Eye { world, settings, aim: Some(aim), photons: None };
         camera.render_tile(tile, samples, |ray, set, sampler, sample| {
-            eye.radiance(ray, set, &mut Draws { sampler, stats }, Some(sample))
+            eye.radiance(ray, set, &mut Draws { sampler, stats, tally: Tally::default() }, Some(sample))
         });
     }
 }
@@ -77,5 +78,5 @@ pub fn radiance(
     first: Option<&mut PixelSample>,
 ) -> Spectrum {
     let eye = Eye { world, settings, aim: None, photons: None };
-    eye.radiance(ray, set, &mut Draws { sampler, stats }, first)
+    eye.radiance(ray, set, &mut Draws { sampler, stats, tally: Tally::default() }, first)
 }

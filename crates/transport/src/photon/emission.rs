@@ -4,8 +4,9 @@
 //! direction, always in this order. Lights are chosen in proportion to their power, so that all photons carry (nearly)
 //! the same flux.
 
+use super::guide::START_NUMBERS;
 use super::projection::{Departure, Projection};
-use hyaline_math::{Ray, Vec3, offset_origin};
+use hyaline_math::{Ray, Vec2, Vec3, offset_origin};
 use hyaline_sampling::Sampler;
 use hyaline_scattering::MediumSet;
 use hyaline_scene::ProjectionMaps;
@@ -74,7 +75,13 @@ impl<'w> PhotonEmitter<'w> {
     ///
     /// - `sampler`: three of its dimensions are used up.
     pub fn emit(&self, sampler: &mut Sampler) -> Option<PhotonStart> {
-        let (u_choice, u_position, u_direction) = (sampler.next_1d(), sampler.next_2d(), sampler.next_2d());
+        self.emit_from(start_numbers(sampler))
+    }
+
+    /// The same from its numbers, each in [0, 1): for the light, two for the place, two for the direction.
+    pub fn emit_from(&self, numbers: [f32; START_NUMBERS]) -> Option<PhotonStart> {
+        let [u_choice, x, y, z, w] = numbers;
+        let (u_position, u_direction) = (Vec2::new(x, y), Vec2::new(z, w));
         let choice = self.choice.sample(u_choice)?;
         let light = self.world.lights.get(choice.index);
         let departure = self.projections[choice.index].emit(light, choice.u, u_position, u_direction)?;
@@ -88,4 +95,12 @@ impl<'w> PhotonEmitter<'w> {
         let ray = Ray::new(off_surface, direction);
         PhotonStart { ray, flux: flux * factor, light, origin, p_error, n, set }
     }
+}
+
+/// The numbers of the next photon.
+///
+/// - `sampler`: three of its dimensions are used up.
+pub fn start_numbers(sampler: &mut Sampler) -> [f32; START_NUMBERS] {
+    let (u_choice, u_position, u_direction) = (sampler.next_1d(), sampler.next_2d(), sampler.next_2d());
+    [u_choice, u_position.x, u_position.y, u_direction.x, u_direction.y]
 }

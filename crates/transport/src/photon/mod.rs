@@ -3,6 +3,7 @@
 mod clip;
 pub mod emission;
 pub mod gather;
+pub mod guide;
 pub mod kernel;
 pub mod maps;
 mod projection;

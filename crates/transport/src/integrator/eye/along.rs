@@ -2,7 +2,7 @@
 
 use super::merges::{Beyond, Merges};
 use super::weight;
-use crate::integrator::merging::{BEAM_SHARE, Beam, Passing, Photons};
+use crate::integrator::merging::{BEAM_SHARE, Beam, Passing, PhotonId, Photons};
 use crate::walk::Stretch;
 use hyaline_math::Ray;
 use hyaline_scattering::Medium;
@@ -27,9 +27,12 @@ pub(super) struct Along<'a> {
 
 impl Along<'_> {
     /// Light of the beams about a stretch, as it arrives where the path's way starts.
-    pub(super) fn gather(&self, stretch: &Stretch<'_>) -> Spectrum {
+    ///
+    /// - `note`: is told the light of every beam that is looked at.
+    pub(super) fn gather(&self, stretch: &Stretch<'_>, mut note: impl FnMut(PhotonId, Spectrum)) -> Spectrum {
         let Stretch { medium, id, ray, way, flown, left } = stretch;
         let own_weight = BeamWeight::new(medium, self.throughput * *left, self.world.lanes);
+        let scattered = medium.sigma_s * *left;
         let mut sum = Spectrum::ZERO;
         self.photons.landed.beams(ray, own_weight.length(*way, *flown), *id, |beam, passing| {
             if beam.bounces >= self.bounces_left {
@@ -38,12 +41,15 @@ impl Along<'_> {
             let phase = medium.phase.value(-ray.direction, -beam.direction);
             let weight = self.weight_of(beam, passing, ray, medium, phase);
             let kernel = 1.0 / (2.0 * passing.radius * passing.sin);
-            sum += own_weight.at(passing.on_ray)
+            let light = own_weight.at(passing.on_ray)
                 * beam.weight.at(passing.on_beam)
                 * beam.flux
+                * scattered
                 * (phase * weight * kernel);
+            note(beam.id, light);
+            sum += light;
         });
-        sum * medium.sigma_s * *left
+        sum
     }
 
     /// What merging a beam counts beside the other ways to make the path.

@@ -16,6 +16,7 @@ pub(super) mod place;
 pub(super) mod radius;
 mod split;
 mod surface;
+pub(super) mod tally;
 #[cfg(test)]
 mod tests;
 pub(super) mod weight;
@@ -37,6 +38,7 @@ use hyaline_spectrum::Spectrum;
 use hyaline_world::{World, mask};
 use merges::Merges;
 use split::Arrived;
+use tally::Tally;
 
 /// Scatterings of a path that are aimed, at most.
 const AIMED_BOUNCES: u32 = 2;
@@ -55,6 +57,7 @@ pub(super) struct Eye<'a> {
 pub(super) struct Draws<'a> {
     pub(super) sampler: &'a mut Sampler,
     pub(super) stats: &'a mut Stats,
+    pub(super) tally: Tally<'a>,
 }
 
 /// A path under way.
@@ -88,14 +91,19 @@ impl Eye<'_> {
         draws: &mut Draws<'_>,
         mut first: Option<&mut PixelSample>,
     ) -> Spectrum {
-        let path = self.start(ray, set);
+        let light = self.estimate(self.start(ray, set), draws, &mut first);
+        draws.stats.merges += std::mem::take(&mut draws.tally.merges);
+        light
+    }
+
+    fn estimate(&self, path: Path, draws: &mut Draws<'_>, first: &mut Option<&mut PixelSample>) -> Spectrum {
         if !self.world.lights.any_can_be_met() {
-            return self.follow(path, draws, &mut first);
+            return self.follow(path, draws, first);
         }
-        let (light, arrived) = self.over_polished(path, draws, &mut first);
+        let (light, arrived) = self.over_polished(path, draws, first);
         let Some(Arrived { mut path, at }) = arrived else { return light };
         match self.scatter(&mut path, &at, draws) {
-            true => light + self.follow(path, draws, &mut first),
+            true => light + self.follow(path, draws, first),
             false => light + path.light,
         }
     }
@@ -181,13 +189,16 @@ impl Eye<'_> {
             bounces_left,
         });
         let mut gathered = Spectrum::ZERO;
+        let Draws { sampler, stats, tally } = draws;
+        let carried = *throughput * (1.0 / chance);
         let watch = |stretch: &Stretch<'_>| {
-            gathered += along.as_ref().map_or(Spectrum::ZERO, |along| along.gather(stretch));
+            gathered += along.as_ref().map_or(Spectrum::ZERO, |along| {
+                along.gather(stretch, |photon, light| tally.note(photon, carried * light))
+            });
         };
-        let (sampler, stats) = (&mut *draws.sampler, &mut *draws.stats);
         let (flown, emitted) =
             walk::fly_watched(self.world, ray, *visible, set, *throughput, sampler, stats, watch);
-        path.light += path.throughput * (emitted + gathered * (1.0 / chance));
+        path.light += path.throughput * emitted + carried * gathered;
         flown
     }
 

@@ -3,6 +3,7 @@
 use super::aim::{Choice, Cones};
 use super::merges::{Beyond, Passed, Place};
 use super::radius::GatherRadius;
+use super::tally::Tally;
 use super::{Draws, Eye, Path, weight};
 use crate::direct::LastScatter;
 use crate::in_volume::{self, VolumeLight};
@@ -25,7 +26,7 @@ impl Eye<'_> {
             if let Some(photons) = &self.photons
                 && Place::in_medium(medium) == Place::Grid
             {
-                path.light += path.throughput * self.gather_in_volume(path, place, wo, photons);
+                path.light += self.gather_in_volume(path, place, wo, photons, &mut draws.tally);
             }
             path.light +=
                 path.throughput * self.sampled_light_in_volume(path, place, wo, aim.as_ref(), draws);
@@ -63,29 +64,32 @@ impl Eye<'_> {
         path.visible = mask::PATH;
     }
 
-    /// Light of the photons about a particle.
+    /// Light that the photons about a particle bring to the picture.
     fn gather_in_volume(
         &self,
         path: &Path,
         place: &VolumeVertex,
         wo: Vec3,
         photons: &Photons<'_>,
+        tally: &mut Tally<'_>,
     ) -> Spectrum {
         let medium = &self.world.media[place.medium.index()];
         let radius = photons.radius.in_volume(place.p);
+        // Photons count what they scatter; what the path scatters is in its throughput already.
+        let density = medium.density(place.p);
+        let sigma_s = (medium.sigma_s * density).map(|sigma| if sigma > 0.0 { 1.0 / sigma } else { 0.0 });
+        let carried = path.throughput * sigma_s * (1.0 / (4.0 / 3.0 * PI * radius * radius * radius));
         let points = self.points_about(path, place, photons);
         let left = self.bounces_left(path);
-        let sum = photons.landed.volume(place.p, radius, |photon| {
+        photons.landed.volume(place.p, radius, |photon| {
             if photon.bounces >= left {
                 return Spectrum::ZERO;
             }
             let phase = medium.phase.value(wo, -photon.direction);
-            photon.flux * (phase * points.weight_of(phase, photon.others))
-        });
-        // Photons count what they scatter; what the path scatters is in its throughput already.
-        let density = medium.density(place.p);
-        let sigma_s = (medium.sigma_s * density).map(|sigma| if sigma > 0.0 { 1.0 / sigma } else { 0.0 });
-        sum * sigma_s * (1.0 / (4.0 / 3.0 * PI * radius * radius * radius))
+            let light = carried * photon.flux * (phase * points.weight_of(phase, photon.others));
+            tally.note(photon.id, light);
+            light
+        })
     }
 
     /// What weights of photons about a particle have in common.

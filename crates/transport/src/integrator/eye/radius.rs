@@ -26,6 +26,13 @@ impl GatherRadius {
         Self { spread: camera.spread(), camera: camera.position().as_vec3(), shrink }
     }
 
+    /// As of pixels so many times as wide.
+    pub(in crate::integrator) fn widened(mut self, scale: f32) -> Self {
+        self.spread.width *= scale;
+        self.spread.angle *= scale;
+        self
+    }
+
     /// On surfaces, scene units, for photons that come over polished surfaces alone; others are gathered from [`INDIRECT`]
     /// times as far.
     pub(in crate::integrator) fn on_surface(&self, p: Vec3) -> f32 {

@@ -3,6 +3,7 @@
 use super::aim::Cones;
 use super::merges::{Beyond, Passed, Place};
 use super::radius::INDIRECT;
+use super::tally::Tally;
 use super::weight::{self, Side};
 use super::{Draws, Eye, Path};
 use crate::integrator::merging::{LandedPhoton, Photons};
@@ -25,7 +26,7 @@ impl Eye<'_> {
         let aim = self.aim_of(path).filter(|_| is_wide).and_then(|aim| aim.at_surface(vertex, wo));
         if !is_delta && self.may_bounce(path) {
             if let Some(photons) = &self.photons {
-                path.light += path.throughput * self.gather(path, vertex, wo, photons);
+                path.light += self.gather(path, vertex, wo, photons, &mut draws.tally);
             }
             path.light += path.throughput * self.sampled_light(path, vertex, wo, aim.as_ref(), draws);
         }
@@ -79,14 +80,24 @@ impl Eye<'_> {
         path.merges.pass(&Passed { place: Place::Surface, own, across, is_specular });
     }
 
-    /// Light of the photons about a vertex.
-    fn gather(&self, path: &Path, vertex: &Vertex, wo: Vec3, photons: &Photons<'_>) -> Spectrum {
+    /// Light that the photons about a vertex bring to the picture.
+    fn gather(
+        &self,
+        path: &Path,
+        vertex: &Vertex,
+        wo: Vec3,
+        photons: &Photons<'_>,
+        tally: &mut Tally<'_>,
+    ) -> Spectrum {
         let p = vertex.hit.p;
+        let mut light_of = |gather: &Gather<'_>, photon: &LandedPhoton| {
+            let light = gather.light_of(photon) * gather.carried;
+            tally.note(photon.id, light);
+            light
+        };
         let [caustic, indirect] = self.gathers(path, vertex, wo, photons);
-        let density = |radius: f32| 1.0 / (PI * radius * radius);
-        photons.landed.caustic(p, caustic.radius, |photon| caustic.light_of(photon)) * density(caustic.radius)
-            + photons.landed.indirect(p, indirect.radius, |photon| indirect.light_of(photon))
-                * density(indirect.radius)
+        photons.landed.caustic(p, caustic.radius, |photon| light_of(&caustic, photon))
+            + photons.landed.indirect(p, indirect.radius, |photon| light_of(&indirect, photon))
     }
 
     /// The same photon by photon: those that have come over polished and nearly polished surfaces alone, and others.
@@ -98,7 +109,9 @@ impl Eye<'_> {
         photons: &Photons<'_>,
     ) -> [Gather<'a>; 2] {
         let radius = photons.radius.on_surface(vertex.hit.p);
+        let carried = |radius: f32| path.throughput * (1.0 / (PI * radius * radius));
         let caustic = Gather {
+            carried: carried(radius),
             eye: self,
             path,
             vertex,
@@ -109,7 +122,8 @@ impl Eye<'_> {
             ior_before: self.world.ior(path.set.active()),
         };
         let behind = path.merges.behind(Beyond::Wide);
-        [caustic, Gather { radius: radius * INDIRECT, behind, ..caustic }]
+        let wide = radius * INDIRECT;
+        [caustic, Gather { radius: wide, carried: carried(wide), behind, ..caustic }]
     }
 
     /// Light of one light, chosen at random, by a shadow ray.
@@ -196,6 +210,8 @@ pub(super) struct Gather<'a> {
     /// Unit, back along the path.
     wo: Vec3,
     radius: f32,
+    /// What the path carries, over the area that is gathered from.
+    carried: Spectrum,
     /// Merges at earlier vertices of the path, see `Merges::behind`.
     behind: f32,
     /// Bounces that photons may have made, and one more.

@@ -8,6 +8,7 @@
 //!
 //! Source: Jarosz, Nowrouzezahrai, Thomas, Sloan & Zwicker, Progressive photon beams, ACM TOG 30(6), 2011, eq. 13.
 
+use super::landed::PhotonId;
 use super::origin::Origin;
 use crate::integrator::eye::radius::GatherRadius;
 use hyaline_math::{Bounds, Ray, Vec3};
@@ -40,6 +41,7 @@ pub(in crate::integrator) struct Beam {
     pub(in crate::integrator) others: f32,
     /// Scatterings before it started, singular ones not counted.
     pub(in crate::integrator) bounces: u32,
+    pub(in crate::integrator) id: PhotonId,
 }
 
 /// Where a ray passes a beam.

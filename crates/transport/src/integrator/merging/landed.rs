@@ -10,6 +10,29 @@ use hyaline_spectrum::Spectrum;
 /// Photons in a leaf of the tree.
 const LEAF: u32 = 16;
 
+/// Which photon of a pass it is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(in crate::integrator) struct PhotonId(u32);
+
+/// The bit that tells the senders apart.
+const AIMED: u32 = 1 << 31;
+
+impl PhotonId {
+    pub(super) fn new(is_aimed: bool, number: u32) -> Self {
+        Self(number | if is_aimed { AIMED } else { 0 })
+    }
+
+    /// Whether the aimed sender has sent it.
+    pub(in crate::integrator) fn is_aimed(self) -> bool {
+        self.0 & AIMED != 0
+    }
+
+    /// Its number among those of its sender.
+    pub(in crate::integrator) fn number(self) -> u32 {
+        self.0 & !AIMED
+    }
+}
+
 /// A photon that has landed.
 #[derive(Clone, Copy, Debug)]
 pub(in crate::integrator) struct LandedPhoton {
@@ -22,6 +45,7 @@ pub(in crate::integrator) struct LandedPhoton {
     pub(in crate::integrator) others: f32,
     /// Scatterings before it landed, singular ones not counted.
     pub(in crate::integrator) bounces: u32,
+    pub(in crate::integrator) id: PhotonId,
 }
 
 /// Photons that have landed at points.

@@ -4,7 +4,7 @@
 //! path, as the path from the eye carries that of its own side (`eye/merges`, `eye/weight`).
 
 use super::beams::Beam;
-use super::landed::{Landed, LandedPhoton, Points};
+use super::landed::{Landed, LandedPhoton, PhotonId, Points};
 use super::origin::Origin;
 use super::sender::{BEAM_SHARE, Sender, Senders};
 use crate::RenderSettings;
@@ -13,6 +13,7 @@ use crate::integrator::eye::merges::Place;
 use crate::integrator::eye::place::volume_factor;
 use crate::integrator::eye::radius::{GatherRadius, INDIRECT};
 use crate::integrator::eye::weight::{self, Side};
+use crate::photon::emission::start_numbers;
 use crate::photon::specular::is_specular_event;
 use crate::stats::Stats;
 use crate::walk::{self, Event, Flown, Stretch, Vertex, VolumeVertex};
@@ -60,28 +61,28 @@ impl Light<'_> {
     }
 
     fn chunk(&self, sender: &Sender<'_>, pass: u32, photons: Range<u32>) -> Chunk {
-        let column = PHOTON_COLUMNS[usize::from(sender.is_aimed)];
         let mut chunk = Chunk::default();
         for photon in photons {
-            let mut sampler = Sampler::new(self.settings.sampler, self.settings.seed, (column, pass), photon);
-            let leaves_beams = photon < sender.beams();
-            if let Some(photon) = self.start(sender, leaves_beams, &mut sampler) {
+            let mut sampler = sampler_of(self.settings, sender, pass, photon);
+            if let Some(photon) = self.start(sender, photon, &mut sampler) {
                 self.follow(photon, &mut sampler, &mut chunk);
             }
         }
         chunk
     }
 
+    /// - `number`: of the photon, among those of its sender.
     pub(in crate::integrator) fn start<'a>(
         &'a self,
         sender: &'a Sender<'_>,
-        leaves_beams: bool,
+        number: u32,
         sampler: &mut Sampler,
     ) -> Option<Photon<'a>> {
-        let start = sender.emitter.emit(sampler)?;
+        let (numbers, guided) = sender.guide.warp(start_numbers(sampler));
+        let start = sender.emitter.emit_from(numbers)?;
         let at_light =
             sender.density(self.world, start.light as usize, start.n, start.ray.direction, &start.set);
-        let flux = start.flux * (1.0 / sender.count as f32);
+        let flux = start.flux * (1.0 / (sender.count as f32 * guided));
         let origin = Origin::new(self.world, &start, at_light, self.settings.techniques);
         Some(Photon {
             sender,
@@ -93,7 +94,8 @@ impl Light<'_> {
             vertices: 0,
             bounces: 0,
             comes_straight: true,
-            leaves_beams,
+            leaves_beams: number < sender.beams(),
+            id: PhotonId::new(sender.is_aimed, number),
             is_indirect: false,
             others: origin.hit(),
         })
@@ -118,7 +120,7 @@ impl Light<'_> {
     fn walk(&self, photon: &mut Photon<'_>, sampler: &mut Sampler, chunk: &mut Chunk) -> Flown {
         let straight_from = photon.straight_from();
         let keeps_beams = photon.leaves_beams && photon.beams_count();
-        let (others, bounces) = (photon.others, photon.bounces);
+        let (others, bounces, id) = (photon.others, photon.bounces, photon.id);
         let Photon { ray, set, flux, .. } = photon;
         let flux = *flux;
         if !self.world.has_volumes {
@@ -141,6 +143,7 @@ impl Light<'_> {
                 straight_from,
                 others,
                 bounces,
+                id,
             });
         };
         walk::fly_watched(self.world, ray, mask::PATH, set, flux, sampler, stats, keep).0
@@ -267,6 +270,12 @@ impl Light<'_> {
     }
 }
 
+/// The random numbers of a photon.
+pub(super) fn sampler_of(settings: &RenderSettings, sender: &Sender<'_>, pass: u32, number: u32) -> Sampler {
+    let column = PHOTON_COLUMNS[usize::from(sender.is_aimed)];
+    Sampler::new(settings.sampler, settings.seed, (column, pass), number)
+}
+
 /// What one task collects.
 #[derive(Default)]
 struct Chunk {
@@ -293,6 +302,7 @@ pub(in crate::integrator) struct Photon<'a> {
     pub(in crate::integrator) comes_straight: bool,
     /// Whether its ways through homogeneous media are kept.
     pub(in crate::integrator) leaves_beams: bool,
+    pub(in crate::integrator) id: PhotonId,
     /// Whether it has been scattered widely.
     pub(in crate::integrator) is_indirect: bool,
     pub(in crate::integrator) others: f32,
@@ -316,7 +326,8 @@ impl Photon<'_> {
     }
 
     fn landed(&self, flux: Spectrum) -> LandedPhoton {
-        LandedPhoton { direction: self.ray.direction, flux, others: self.others, bounces: self.bounces }
+        let Self { others, bounces, id, .. } = *self;
+        LandedPhoton { direction: self.ray.direction, flux, others, bounces, id }
     }
 
     /// Accounts for a vertex that is not singular.

@@ -21,10 +21,12 @@ mod beams;
 mod landed;
 mod light;
 mod origin;
+mod pilot;
 mod sender;
 
 use super::eye::aim::Aim;
 use super::eye::radius::GatherRadius;
+use super::eye::tally::Tally;
 use super::eye::{Draws, Eye};
 use super::per_pixel::CameraRays;
 use super::{Integrator, Pass, Prepared, RenderSettings, View};
@@ -33,7 +35,7 @@ use crate::stats::Stats;
 pub(super) use beams::{Beam, Passing};
 use hyaline_film::{PixelSample, Rect};
 use hyaline_world::World;
-pub(super) use landed::{Landed, LandedPhoton};
+pub(super) use landed::{Landed, LandedPhoton, PhotonId};
 pub(super) use light::Light;
 #[cfg(test)]
 pub(super) use light::Photon;
@@ -54,9 +56,12 @@ impl Integrator for MergingIntegrator {
         view: &View,
         settings: &RenderSettings,
         _cancel: &AtomicBool,
-        _stats: &mut Stats,
+        stats: &mut Stats,
     ) -> Box<dyn Prepared + 'w> {
-        let senders = Senders::new(world, view, settings.techniques.merging);
+        let mut senders = Senders::new(world, view, settings.techniques.merging);
+        if senders.any() {
+            pilot::teach(world, view, settings, &mut senders, stats);
+        }
         let aim = (!senders.any()).then(|| Aim::new(world));
         Box::new(Merging { world, view: *view, settings: *settings, senders, aim })
     }
@@ -104,7 +109,7 @@ impl Pass for MergingPass<'_> {
         let photons = senders.any().then_some(Photons { senders, landed: &self.landed, radius: self.radius });
         let eye = Eye { world, settings, aim: aim.as_ref(), photons };
         camera.render_tile(tile, samples, |ray, set, sampler, sample| {
-            eye.radiance(ray, set, &mut Draws { sampler, stats }, Some(sample))
+            eye.radiance(ray, set, &mut Draws { sampler, stats, tally: Tally::default() }, Some(sample))
         });
     }
 }

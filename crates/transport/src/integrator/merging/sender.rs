@@ -8,6 +8,7 @@
 use crate::integrator::View;
 use crate::integrator::eye::weight;
 use crate::photon::PhotonEmitter;
+use crate::photon::guide::Guide;
 use hyaline_math::Vec3;
 use hyaline_scattering::MediumSet;
 use hyaline_scene::ProjectionMaps;
@@ -29,6 +30,8 @@ pub(in crate::integrator) struct Sender<'w> {
     pub(in crate::integrator) count: u32,
     /// Whether the first vertex of its photons passes them on as polished ones do.
     pub(in crate::integrator) is_aimed: bool,
+    /// Where they are sent more densely, as their light has been found there.
+    pub(in crate::integrator) guide: Guide,
 }
 
 /// Both kinds.
@@ -40,17 +43,29 @@ pub(in crate::integrator) struct Senders<'w> {
 impl<'w> Senders<'w> {
     /// - `is_on`: whether photons are sent at all.
     pub(in crate::integrator) fn new(world: &'w World, view: &View, is_on: bool) -> Self {
-        let pixels = view.width * view.height;
-        let sender = |maps, share: u32, is_aimed| {
+        let sender = |maps, is_aimed| {
             let emitter = PhotonEmitter::new(world, maps, PROJECTION_CELLS);
-            let count = if is_on && emitter.fraction() > 0.0 {
+            Sender { emitter, count: 0, is_aimed, guide: Guide::default() }
+        };
+        let (aimed, broad) = (sender(ProjectionMaps::Cells, true), sender(ProjectionMaps::None, false));
+        let mut senders = Self { aimed, broad };
+        if is_on {
+            senders.send(view.width * view.height, true);
+        }
+        senders
+    }
+
+    /// Sets how many photons passes send out.
+    ///
+    /// - `pixels`: of the picture; `broad`: whether broad ones are sent at all.
+    pub(super) fn send(&mut self, pixels: u32, broad: bool) {
+        for (sender, share) in [(&mut self.aimed, 2), (&mut self.broad, u32::from(broad))] {
+            sender.count = if share > 0 && sender.emitter.fraction() > 0.0 {
                 (share * pixels).clamp(1 << 12, 1 << 20).next_multiple_of(PHOTONS_PER_BEAM)
             } else {
                 0
             };
-            Sender { emitter, count, is_aimed }
-        };
-        Self { aimed: sender(ProjectionMaps::Cells, 2, true), broad: sender(ProjectionMaps::None, 1, false) }
+        }
     }
 
     /// Who makes the paths whose vertex next to the light is polished or nearly so, or the others.
@@ -91,6 +106,8 @@ impl Sender<'_> {
         let pdf = world.lights.get(light).pdf_emission(n.unwrap_or(Vec3::Y), direction);
         let cos = n.map_or(1.0, |n| n.dot(direction).abs());
         let ior = world.ior(set.active());
+        // Without the guide: which numbers would start just this photon need not be known. Weights are right by being the
+        // same on both sides; where the guide sends more photons, merging counts for a little less than it could.
         weight::at_light(self.count as f32, chance, pdf.position, pdf.direction, ior, cos)
     }
 

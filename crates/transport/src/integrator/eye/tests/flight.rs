@@ -70,7 +70,7 @@ pub(super) fn fly<'w>(
     index: u32,
 ) -> Option<Flight<'w>> {
     let mut sampler = Sampler::new(SamplerKind::Independent, 1, (index, 0), 0);
-    let mut photon = photons.start(photons.senders.of(is_aimed), true, &mut sampler)?;
+    let mut photon = photons.start(photons.senders.of(is_aimed), 0, &mut sampler)?;
     let mut flight = Flight { start: photon.ray, arrivals: Vec::new(), turns: Vec::new() };
     while flight.turns.len() <= LONGEST {
         let from = photon.ray.origin;

@@ -186,6 +186,7 @@ impl Replay<'_> {
             straight_from: photon.straight_from(),
             others: photon.others,
             bounces: photon.bounces,
+            id: photon.id,
         };
         let sin = path.ray.direction.cross(beam.direction).length();
         let on_ray = path.ray.origin.distance(place.p);
