@@ -3,13 +3,15 @@
 //! A face that is large for its mesh is cut into pieces: boxes of the random numbers that its points are drawn with.
 //! Pieces that lie together then make a cluster.
 
-use super::ball::{Ball, split};
+use super::ball::Ball;
+use super::neighbors::groups;
 use super::patch::Patch;
 use hyaline_geometry::Mesh;
 use hyaline_math::float::f64 as float;
 use hyaline_math::{DVec2, DVec3, Transform};
 use hyaline_sampling::warp;
 use hyaline_world::light::{Cone, UnitBox};
+use rayon::prelude::*;
 
 /// Pieces along each random number of a face, at most.
 const FINEST: f64 = 64.0;
@@ -45,20 +47,13 @@ pub(super) struct Cluster {
 /// Cuts some faces of a mesh into at most `count` clusters of about the same number of pieces.
 pub(super) fn cut(mesh: &Mesh, transform: Option<&Transform>, faces: Vec<u32>, count: u32) -> Vec<Cluster> {
     let placed = Placed { mesh, transform };
-    let mut pieces: Vec<(Piece, DVec3)> = placed
-        .pieces(&faces, count)
-        .into_iter()
-        .map(|piece| (piece, placed.corners(&piece).iter().sum::<DVec3>() * 0.25))
-        .collect();
-    let mut clusters = Vec::new();
-    split(&mut pieces, count.max(1) as usize, &mut |&(_, middle)| middle, &mut |group| {
-        if !group.is_empty() {
-            let pieces: Vec<Piece> = group.iter().map(|&(piece, _)| piece).collect();
-            let patch = placed.patch(&pieces);
-            clusters.push(Cluster { pieces, patch });
-        }
-    });
-    clusters
+    let pieces = placed.pieces(&faces, count);
+    let middles = pieces.par_iter().map(|piece| placed.corners(piece).iter().sum::<DVec3>() * 0.25);
+    let cluster = |group: Vec<u32>| {
+        let pieces: Vec<Piece> = group.into_iter().map(|index| pieces[index as usize]).collect();
+        Cluster { patch: placed.patch(&pieces), pieces }
+    };
+    groups(middles, count.max(1) as usize).into_par_iter().map(cluster).collect()
 }
 
 /// A mesh in the world.
@@ -80,7 +75,7 @@ impl Placed<'_> {
 
     /// The pieces of some faces: each of about the same area where the mesh has few faces.
     fn pieces(&self, faces: &[u32], count: u32) -> Vec<Piece> {
-        let areas: Vec<f64> = faces.iter().map(|&face| self.doubled_area(face).length()).collect();
+        let areas: Vec<f64> = faces.par_iter().map(|&face| self.doubled_area(face).length()).collect();
         let total: f64 = areas.iter().sum();
         let mut pieces = Vec::with_capacity(faces.len());
         for (&face, area) in faces.iter().zip(areas) {
