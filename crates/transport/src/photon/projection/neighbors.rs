@@ -94,8 +94,9 @@ mod tests {
         let mut random = Random::from_seed(1);
         for (count, most) in [(1, 4), (5, 8), (300, 7), (20_000, 64)] {
             // A few values for each coordinate, so that most of them tie.
-            let centers: Vec<DVec3> =
-                (0..count).map(|_| DVec3::from([0; 3].map(|_| f64::from(random.bits() as u32 % 9)))).collect();
+            let centers: Vec<DVec3> = (0..count)
+                .map(|_| DVec3::from([0; 3].map(|_| f64::from(random.bits() as u32 % 9))))
+                .collect();
             let place = |(index, &center)| Place { center, index: index as u32 };
             let mut places: Vec<Place> = (0..).zip(&centers).map(place).collect();
             let expected = sorted(&mut places, most);
