@@ -260,7 +260,9 @@ impl<L: Lanes, K: Sink> Leaves<'_, L, K> {
             });
             return ControlFlow::Continue(());
         }
-        match shape.closest(self.ray) {
+        // A hit at the limit itself is still of use where the item is a lower one.
+        let t_max = self.sink.limit().next_up().min(self.ray.t_max);
+        match shape.closest(&Ray { t_max, ..*self.ray }) {
             Some(t) => self.sink.take(candidate(t)),
             None => ControlFlow::Continue(()),
         }

@@ -57,7 +57,7 @@ pub(super) fn optimized(boxes: &[Bounds]) -> Option<Vec<BinaryNode>> {
         let candidates = largest_nodes(&bvh, share);
         optimizer.run_with_candidates(&mut bvh, &candidates, 1);
     }
-    (!depth_exceeds(&bvh, MAX_BINARY_DEPTH)).then(|| flatten(&bvh, boxes))
+    flatten(&bvh, boxes)
 }
 
 /// The boxes in the cube of edge 1 about the origin.
@@ -100,12 +100,15 @@ fn depth_exceeds(bvh: &Bvh2, limit: usize) -> bool {
     false
 }
 
-/// The nodes in depth-first order, with exact boxes.
-fn flatten(bvh: &Bvh2, boxes: &[Bounds]) -> Vec<BinaryNode> {
+/// The nodes in depth-first order, with exact boxes; `None` where some node has more than `MAX_BINARY_DEPTH` above it.
+fn flatten(bvh: &Bvh2, boxes: &[Bounds]) -> Option<Vec<BinaryNode>> {
     let mut nodes = Vec::with_capacity(bvh.nodes.len());
-    // Each entry is a node, and the parent whose right child it is, if it is one.
-    let mut pending = vec![(0_u32, None::<usize>)];
-    while let Some((index, parent)) = pending.pop() {
+    // Each entry is a node, its depth, and the parent whose right child it is, if it is one.
+    let mut pending = vec![(0_u32, 0, None::<usize>)];
+    while let Some((index, depth, parent)) = pending.pop() {
+        if depth > MAX_BINARY_DEPTH {
+            return None;
+        }
         if let Some(parent) = parent {
             let here = nodes.len() as u32;
             let parent: &mut BinaryNode = &mut nodes[parent];
@@ -116,13 +119,13 @@ fn flatten(bvh: &Bvh2, boxes: &[Bounds]) -> Vec<BinaryNode> {
             let primitive = bvh.primitive_indices[node.first_index as usize];
             nodes.push(BinaryNode { bounds: boxes[primitive as usize], count: 1, link: primitive });
         } else {
-            pending.push((node.first_index + 1, Some(nodes.len())));
-            pending.push((node.first_index, None));
+            pending.push((node.first_index + 1, depth + 1, Some(nodes.len())));
+            pending.push((node.first_index, depth + 1, None));
             nodes.push(BinaryNode { bounds: Bounds::EMPTY, count: 0, link: 0 });
         }
     }
     refit(&mut nodes);
-    nodes
+    Some(nodes)
 }
 
 /// Boxes and counts of the inner nodes, from the leaves up.

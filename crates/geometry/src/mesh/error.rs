@@ -1,6 +1,8 @@
 //! What can be wrong with a mesh, in words that name the vertex or face.
 
 use super::{MAX_COORDINATE, MAX_FACES, MeshData};
+use hyaline_math::Vec3;
+use rayon::prelude::*;
 use std::fmt;
 
 /// Why a mesh was refused.
@@ -109,25 +111,22 @@ pub(super) fn check(data: &MeshData) -> Result<(), MeshError> {
 }
 
 fn check_positions(data: &MeshData) -> Result<(), MeshError> {
-    for (vertex, p) in data.positions.iter().enumerate() {
-        if !p.is_finite() {
-            return Err(MeshError::NonFinitePosition { vertex });
-        }
-        if p.abs().max_element() > MAX_COORDINATE {
-            return Err(MeshError::PositionTooLarge { vertex });
-        }
+    let is_within = |p: &Vec3| p.is_finite() && p.abs().max_element() <= MAX_COORDINATE;
+    match data.positions.par_iter().position_first(|p| !is_within(p)) {
+        Some(vertex) if data.positions[vertex].is_finite() => Err(MeshError::PositionTooLarge { vertex }),
+        Some(vertex) => Err(MeshError::NonFinitePosition { vertex }),
+        None => Ok(()),
     }
-    Ok(())
 }
 
 fn check_faces(data: &MeshData) -> Result<(), MeshError> {
     let vertex_count = data.positions.len();
-    for (face, indices) in data.triangles.iter().enumerate() {
-        if let Some(&index) = indices.iter().find(|&&i| i as usize >= vertex_count) {
-            return Err(MeshError::IndexOutOfRange { face, index, vertex_count });
-        }
+    let beyond = |indices: &[u32; 3]| indices.iter().copied().find(|&i| i as usize >= vertex_count);
+    let found = data.triangles.par_iter().enumerate();
+    match found.find_map_first(|(face, indices)| beyond(indices).map(|index| (face, index))) {
+        Some((face, index)) => Err(MeshError::IndexOutOfRange { face, index, vertex_count }),
+        None => Ok(()),
     }
-    Ok(())
 }
 
 fn check_length(list: &'static str, found: Option<usize>, expected: usize) -> Result<(), MeshError> {

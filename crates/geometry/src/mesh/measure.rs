@@ -3,6 +3,11 @@
 use super::health::edge_uses;
 use super::{Mesh, doubled_area};
 use hyaline_math::{DVec3, Vec3};
+use rayon::prelude::*;
+use std::iter::Sum;
+
+/// Faces that one task adds up.
+const TASK: u32 = 1 << 16;
 
 /// How the faces of a mesh join.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -23,7 +28,7 @@ impl MeshTopology {
 impl Mesh {
     /// Surface area, square scene units.
     pub fn area(&self) -> f64 {
-        (0..self.face_count() as u32).map(|face| 0.5 * self.doubled_area(face).length()).sum()
+        self.sum_over_faces(|face| 0.5 * self.doubled_area(face).length())
     }
 
     /// Volume enclosed, cubic scene units; negative where the mesh is inside out, meaningless where it is open.
@@ -36,7 +41,7 @@ impl Mesh {
             let [a, b, c] = self.corners(face).map(|p| p.as_dvec3() - center);
             a.dot(b.cross(c)) / 6.0
         };
-        (0..self.face_count() as u32).map(volume_of).sum()
+        self.sum_over_faces(volume_of)
     }
 
     /// How far the mesh is from being closed: 0 for a closed one, 1 for a flat sheet, and little for a few holes.
@@ -44,8 +49,8 @@ impl Mesh {
     /// The length of the sum of the faces' areas as vectors, over the sum of their lengths: on a closed surface the
     /// vectors cancel. A tube without ends counts as closed.
     pub fn openness(&self) -> f64 {
-        let areas = || (0..self.face_count() as u32).map(|face| self.doubled_area(face));
-        areas().sum::<DVec3>().length() / areas().map(DVec3::length).sum::<f64>()
+        self.sum_over_faces(|face| self.doubled_area(face)).length()
+            / self.sum_over_faces(|face| self.doubled_area(face).length())
     }
 
     /// The same surface with its other side out: every face wound the other way. Vertex normals stay: of them only
@@ -68,6 +73,14 @@ impl Mesh {
             }
         }
         topology
+    }
+
+    /// The sum of a term over all faces, the same for any number of threads.
+    fn sum_over_faces<T: Sum + Send>(&self, term: impl Fn(u32) -> T + Sync) -> T {
+        let count = self.face_count() as u32;
+        let tasks = (0..count.div_ceil(TASK)).into_par_iter();
+        let sum_of = |task: u32| (task * TASK..count.min((task + 1) * TASK)).map(&term).sum::<T>();
+        tasks.map(sum_of).collect::<Vec<T>>().into_iter().sum()
     }
 
     /// Twice the area of a face times its unit normal.

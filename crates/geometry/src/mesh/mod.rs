@@ -75,7 +75,9 @@ impl Mesh {
             return Err(MeshError::NoFaceHasAnArea { face_count });
         }
         // Made unit here rather than at every hit.
-        data.normals.iter_mut().flatten().for_each(|n| *n = n.normalize_or_zero());
+        if let Some(normals) = &mut data.normals {
+            normals.par_iter_mut().for_each(|n| *n = n.normalize_or_zero());
+        }
         let bounds = data
             .triangles
             .par_iter()

@@ -100,14 +100,25 @@ impl RevolvedArc {
         let ray = UnitRay::new(p, e);
         let slack = end_slack(self.extent(), origin);
         let Some((low, high)) = self.clip(&ray, slack) else { return };
+        let t_of = |tau: f64| (closest + tau) / speed;
+        let parts = self.within_shell(&ray, low, high, slack);
+        // Most of what is behind the ray's start or beyond its end is known before it is solved for.
+        if !parts.iter().flatten().any(|&(low, high)| out.admits_within(t_of(low), t_of(high))) {
+            return;
+        }
         let inflections = self.inflections(&ray);
-        for (low, high) in self.within_shell(&ray, low, high, slack).into_iter().flatten() {
-            self.between(&ray, inflections, low, high, |tau| {
-                let t = (closest + tau) / speed;
-                if out.admits(t) && self.is_in_range(ray.at(tau), slack) {
-                    out.push(t);
+        for (low, high) in parts.into_iter().flatten() {
+            let (changes, count) = self.sign_changes(&ray, inflections, low, high);
+            for &(low, high) in &changes[..count] {
+                if !out.admits_within(t_of(low), t_of(high)) {
+                    continue;
                 }
-            });
+                let tolerance = 0.25 * f64::EPSILON * self.reach;
+                let tau = bracketed_root(|tau| self.f(&ray, tau), low, high, tolerance);
+                if out.admits(t_of(tau)) && self.is_in_range(ray.at(tau), slack) {
+                    out.push(t_of(tau));
+                }
+            }
         }
     }
 
@@ -146,26 +157,27 @@ impl RevolvedArc {
         (half > 0.0 && low < high).then_some((low, high))
     }
 
-    /// Calls `found` with each root of f in [low, high], ascending.
-    fn between(
+    /// The pieces of [low, high] that hold one root of f each, ascending, and their number.
+    fn sign_changes(
         &self,
         ray: &UnitRay,
         inflections: [(f64, f64); 2],
         low: f64,
         high: f64,
-        mut found: impl FnMut(f64),
-    ) {
-        let tolerance = f64::EPSILON * self.reach;
-        let (turns, count) = self.turning_points(ray, inflections, low, high);
+    ) -> ([(f64, f64); 4], usize) {
+        let (turns, turn_count) = self.turning_points(ray, inflections, low, high);
+        let (mut changes, mut count) = ([(0.0, 0.0); 4], 0);
         let mut last = low;
         let mut last_is_inside = self.f(ray, low).0 < 0.0;
-        for &next in turns[..count].iter().chain([&high]) {
+        for &next in turns[..turn_count].iter().chain([&high]) {
             let next_is_inside = self.f(ray, next).0 < 0.0;
             if next_is_inside != last_is_inside {
-                found(bracketed_root(|tau| self.f(ray, tau), last, next, 0.25 * tolerance));
+                changes[count] = (last, next);
+                count += 1;
             }
             (last, last_is_inside) = (next, next_is_inside);
         }
+        (changes, count)
     }
 
     /// The roots of f' in [low, high], ascending, and their number.

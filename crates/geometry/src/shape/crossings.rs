@@ -30,6 +30,11 @@ impl Crossings {
         self.t_min < t && t < self.t_max
     }
 
+    /// Whether anything from `first` to `last` may be inside the interval; in doubt, as with NaN, it may.
+    pub(super) fn admits_within(&self, first: f64, last: f64) -> bool {
+        !(first >= self.t_max || last <= self.t_min)
+    }
+
     /// Takes `t` in its place if it is strictly inside the interval.
     pub(super) fn push(&mut self, t: f64) {
         if !self.admits(t) || self.count == self.values.len() {
@@ -63,5 +68,15 @@ mod tests {
             crossings.push(t);
         }
         assert_eq!(crossings.as_slice(), [1.5, 2.0, 3.0]);
+    }
+
+    #[test]
+    fn nothing_is_admitted_within_ranges_before_or_beyond_the_interval() {
+        let mut crossings = Crossings::new();
+        crossings.restart(1.0, 4.0);
+        assert!(!crossings.admits_within(0.0, 1.0) && !crossings.admits_within(4.0, 5.0));
+        assert!(crossings.admits_within(0.0, 1.5) && crossings.admits_within(3.9, 5.0));
+        assert!(crossings.admits_within(0.0, 9.0) && crossings.admits_within(2.0, 3.0));
+        assert!(crossings.admits_within(f64::NAN, f64::NAN));
     }
 }

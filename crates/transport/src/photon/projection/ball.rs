@@ -1,6 +1,8 @@
 //! Balls: what bounds the parts of specular objects and of lights.
 
+use super::neighbors::groups;
 use hyaline_math::DVec3;
+use rayon::prelude::*;
 
 /// A ball.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -36,34 +38,13 @@ impl Ball {
 }
 
 /// At most `most` balls that together cover those given: neighbors are put together.
-pub(super) fn merged(mut balls: Vec<Ball>, most: usize) -> Vec<Ball> {
+pub(super) fn merged(balls: Vec<Ball>, most: usize) -> Vec<Ball> {
     if balls.len() <= most {
         return balls;
     }
-    let mut result = Vec::with_capacity(most);
-    split(&mut balls, most, &mut |ball| ball.center, &mut |group| result.extend(Ball::about_balls(group)));
-    result
-}
-
-/// Splits things into at most `most` groups of neighbors: in halves along the widest axis, again and again.
-pub(super) fn split<T>(
-    things: &mut [T],
-    most: usize,
-    center: &mut impl FnMut(&T) -> DVec3,
-    group: &mut impl FnMut(&[T]),
-) {
-    if most <= 1 || things.len() <= 1 {
-        return group(things);
-    }
-    let (low, high) = things.iter().fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(low, high), thing| {
-        let p = center(thing);
-        (low.min(p), high.max(p))
-    });
-    let size = high - low;
-    let axis = (0..3).fold(0, |widest, axis| if size[axis] > size[widest] { axis } else { widest });
-    // A stable sort, so that ties are the same on every machine.
-    things.sort_by(|a, b| center(a)[axis].total_cmp(&center(b)[axis]));
-    let (lower, upper) = things.split_at_mut(things.len() / 2);
-    split(lower, most / 2, center, group);
-    split(upper, most - most / 2, center, group);
+    let about = |group: Vec<u32>| {
+        let group: Vec<Ball> = group.into_iter().map(|index| balls[index as usize]).collect();
+        Ball::about_balls(&group)
+    };
+    groups(balls.par_iter().map(|ball| ball.center), most).into_iter().filter_map(about).collect()
 }

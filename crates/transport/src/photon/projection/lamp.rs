@@ -146,7 +146,7 @@ fn places(geometry: &ItemGeometry, count: u32) -> Vec<(Place, f64, Patch)> {
                 let by_area = Distribution1d::from_f64(shares).ok()?;
                 Some((Place::Mesh(pieces, by_area), share, patch))
             };
-            let clusters = cluster::cut(mesh.mesh(), transform.as_ref(), faces, count);
+            let clusters = cluster::cut(mesh.mesh(), transform.as_ref(), &faces, count);
             clusters.into_iter().filter_map(place).collect()
         }
     }

@@ -15,6 +15,7 @@ mod cluster;
 mod distant;
 mod grid;
 mod lamp;
+mod neighbors;
 mod objects;
 mod patch;
 mod point;

@@ -4,6 +4,7 @@ use super::ball::{Ball, merged};
 use super::{cluster, patch};
 use hyaline_geometry::ItemGeometry;
 use hyaline_world::World;
+use rayon::prelude::*;
 use std::collections::BTreeMap;
 
 /// Balls in all, at most.
@@ -47,10 +48,9 @@ fn balls_of(world: &World, item: u32, count: u32) -> Vec<Ball> {
             None => patch::cut(primitive, count).into_iter().map(|(_, patch)| patch.ball).collect(),
         },
         ItemGeometry::Mesh { mesh, transform } => {
-            let faces = 0..mesh.mesh().face_count() as u32;
-            let faces = faces.filter(|&face| world.is_specular_face(item, face)).collect();
-            let clusters = cluster::cut(mesh.mesh(), transform.as_ref(), faces, count);
-            clusters.into_iter().map(|cluster| cluster.patch.ball).collect()
+            let faces = (0..mesh.mesh().face_count() as u32).into_par_iter();
+            let faces: Vec<u32> = faces.filter(|&face| world.is_specular_face(item, face)).collect();
+            cluster::balls(mesh.mesh(), transform.as_ref(), &faces, count)
         }
     }
 }

@@ -164,8 +164,8 @@ fn places_of_a_cluster_lie_in_its_ball_and_the_shares_add_up() {
         let mesh = Arc::new(MeshBvh::new(Mesh::new(data).unwrap()));
         for transform in [None, Some(placement)] {
             let sampler = hyaline_geometry::mesh::MeshSampler::new(mesh.clone(), transform);
-            let faces = (0..mesh.mesh().face_count() as u32).collect();
-            let clusters = cluster::cut(mesh.mesh(), transform.as_ref(), faces, 64);
+            let faces: Vec<u32> = (0..mesh.mesh().face_count() as u32).collect();
+            let clusters = cluster::cut(mesh.mesh(), transform.as_ref(), &faces, 64);
             let pieces = || clusters.iter().flat_map(|c| c.pieces.iter().map(move |piece| (c, piece)));
             let share: f64 = pieces().map(|(_, piece)| f64::from(piece.share)).sum();
             assert!((share - 1.0).abs() < 1e-5 && clusters.len() > 16, "{share}, {}", clusters.len());
