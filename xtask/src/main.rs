@@ -1,5 +1,6 @@
 //! Chores of the workspace: `cargo xtask tidy`, `cargo xtask conformance`, `cargo xtask bench`.
 
+mod ablations;
 mod bench;
 mod binary;
 mod conformance;
@@ -26,6 +27,8 @@ enum Chore {
     Conformance(conformance::Arguments),
     /// Time whole renders, alone or in turn with another binary
     Bench(bench::Arguments),
+    /// Render scenes without each part of `merging`, to see what it is worth
+    Ablations(ablations::Arguments),
 }
 
 fn main() -> ExitCode {
@@ -33,6 +36,7 @@ fn main() -> ExitCode {
         Chore::Tidy => tidy::run(),
         Chore::Conformance(arguments) => conformance::run(&arguments),
         Chore::Bench(arguments) => bench::run(&arguments),
+        Chore::Ablations(arguments) => ablations::run(&arguments),
     };
     match result {
         Ok(()) => ExitCode::SUCCESS,

@@ -1,6 +1,6 @@
 //! Which settings an integrator uses: all that its films depend on, and what to tell of the others.
 
-use hyaline_scene::{Located, MediumDescription, PhotonMapSettings, ProjectionMaps, Settings};
+use hyaline_scene::{Located, MediumDescription, PhotonMapSettings, ProjectionMaps, Settings, Techniques};
 use hyaline_transport::RenderSettings;
 use hyaline_transport::integrator::debug::shows_photons;
 
@@ -16,6 +16,9 @@ pub(crate) fn in_words(integrator: &str, settings: &RenderSettings) -> String {
     }
     if MARCHING.contains(&integrator) {
         words.push_str(&format!(", march {:?}", settings.march));
+    }
+    if PATHS.contains(&integrator) && settings.techniques != Techniques::default() {
+        words.push_str(&format!(", {:?}", settings.techniques));
     }
     if uses_photon_map(integrator, settings) {
         words.push_str(&format!(", photon_map {:?}", settings.photon_map));
@@ -53,6 +56,11 @@ pub(crate) fn idle(integrator: &str, given: &Settings, settings: &RenderSettings
         "march",
         "only 'whitted' and 'photon-map' use it",
     );
+    tell(
+        given.techniques != Techniques::default() && !PATHS.contains(&integrator),
+        "without",
+        "only 'path' and 'merging' use it",
+    );
     tell(given.debug != Default::default() && integrator != DEBUG, "debug", "only 'debug' uses it");
     let uses_photons = uses_photon_map(integrator, settings);
     let PhotonMapSettings { projection, projection_cells, final_gather, gather_rays, exclude_direct, .. } =
@@ -84,6 +92,8 @@ pub(crate) fn idle(integrator: &str, given: &Settings, settings: &RenderSettings
 const WHITTED: &str = "whitted";
 const DEBUG: &str = "debug";
 const PHOTON_MAP: &str = "photon-map";
+/// Those that trace paths from the eye.
+const PATHS: [&str; 2] = ["path", "merging"];
 /// Those that march through media.
 const MARCHING: [&str; 2] = [WHITTED, PHOTON_MAP];
 

@@ -17,7 +17,7 @@ pub fn render_settings(description: &hyaline_scene::Settings) -> RenderSettings 
         march: description.march,
         photon_map: description.photon_map,
         debug: description.debug,
-        techniques: defaults.techniques,
+        techniques: description.techniques,
     }
 }
 

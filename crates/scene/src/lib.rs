@@ -11,6 +11,7 @@ pub mod medium;
 pub mod mesh;
 pub mod object;
 pub mod settings;
+mod techniques;
 pub mod texture;
 
 pub use camera::{CameraDescription, FovAxis, Projection};
@@ -29,6 +30,7 @@ pub use settings::{
     Collection, DebugView, FileIntegrator, FilmDescription, MarchStep, NearestPhotons, PhotonKernel,
     PhotonMapSettings, PixelFilter, ProjectionMaps, SamplerKind, Settings,
 };
+pub use techniques::Techniques;
 pub use texture::{ImageData, TextureDescription, TextureFilter, TextureKind, Wrap};
 
 use serde::Serialize;

@@ -1,5 +1,6 @@
 //! How to render: everything of a scene that is not the scene.
 
+use crate::Techniques;
 use serde::Serialize;
 
 /// Settings of the render; `None` leaves the choice to the renderer.
@@ -24,6 +25,8 @@ pub struct Settings {
     pub march: MarchStep,
     /// `photon-map`: what its stages do.
     pub photon_map: PhotonMapSettings,
+    /// `path`, `merging`: what they do; less than all to see what each part is worth.
+    pub techniques: Techniques,
     /// `debug`: what it shows.
     pub debug: DebugView,
     /// What the file asked for, which is reported and obeyed only on demand.

@@ -14,5 +14,5 @@ pub mod shadow;
 pub mod stats;
 pub mod walk;
 
-pub use integrator::{Integrator, Pass, Prepared, RenderSettings, Techniques, View};
+pub use integrator::{Integrator, Pass, Prepared, RenderSettings, View};
 pub use stats::Stats;

@@ -6,7 +6,7 @@ mod scene_kit;
 use hyaline_math::DVec3;
 use hyaline_scene::*;
 use hyaline_testkit::Moments;
-use hyaline_transport::{RenderSettings, Techniques};
+use hyaline_transport::RenderSettings;
 use hyaline_world::World;
 use pictures::{Shot, assert_same, luminance};
 use scene_kit::*;

@@ -6,7 +6,7 @@ mod scene_kit;
 use hyaline_math::DVec3;
 use hyaline_scene::*;
 use hyaline_testkit::Moments;
-use hyaline_transport::{RenderSettings, Techniques};
+use hyaline_transport::RenderSettings;
 use hyaline_world::World;
 use pictures::{Shot, assert_same, luminance};
 use scene_kit::*;
@@ -18,8 +18,6 @@ const SEEDS: u64 = 12;
 const LATE: Range<u32> = 62_500..62_524;
 /// Relative error of a mean above which nothing would be shown.
 const POWER: f64 = 0.02;
-
-const ALL: Techniques = Techniques { hits: true, sampling: true, merging: true };
 
 /// Mean of a picture by some of the ways, for `SEEDS` seeds; different ways draw different numbers.
 fn means(world: &World, techniques: Techniques, first_seed: u64) -> Moments {
@@ -39,7 +37,7 @@ fn means(world: &World, techniques: Techniques, first_seed: u64) -> Moments {
 
 /// Fails unless the picture is the same in the mean without each of these ways.
 fn assert_same_without(world: &World, ways: &[(&str, Techniques)], what: &str) {
-    let whole = means(world, ALL, 0);
+    let whole = means(world, Techniques::default(), 0);
     for (index, (name, techniques)) in ways.iter().enumerate() {
         let part = means(world, *techniques, 100 * (index as u64 + 1));
         assert_same(&whole, &part, POWER, &format!("{what}, without {name}"));
@@ -68,10 +66,10 @@ fn ground_and_polished(lamp: impl FnOnce(&mut SceneKit)) -> SceneKit {
 fn lamps_are_found_as_well_without_hits_samples_or_photons() {
     let world = ground_and_polished(large_lamp).world();
     let ways = [
-        ("hits", Techniques { hits: false, ..ALL }),
-        ("samples", Techniques { sampling: false, ..ALL }),
-        ("photons", Techniques { merging: false, ..ALL }),
-        ("hits and photons", Techniques { hits: false, merging: false, ..ALL }),
+        ("hits", Techniques { hits: false, ..Techniques::default() }),
+        ("samples", Techniques { sampling: false, ..Techniques::default() }),
+        ("photons", Techniques { merging: false, ..Techniques::default() }),
+        ("hits and photons", Techniques { hits: false, merging: false, ..Techniques::default() }),
     ];
     assert_same_without(&world, &ways, "lamp");
 }
@@ -83,9 +81,9 @@ fn the_sky_is_found_as_well_without_hits_samples_or_photons() {
     kit.medium("glass", 1.5).solid("ball", sphere(DVec3::new(0.0, 0.0, -0.4), 0.5), "glass");
     kit.sky(1.0).camera(DVec3::new(0.0, 0.8, 2.0), DVec3::new(0.0, -0.4, -0.3));
     let ways = [
-        ("hits", Techniques { hits: false, ..ALL }),
-        ("samples", Techniques { sampling: false, ..ALL }),
-        ("photons", Techniques { merging: false, ..ALL }),
+        ("hits", Techniques { hits: false, ..Techniques::default() }),
+        ("samples", Techniques { sampling: false, ..Techniques::default() }),
+        ("photons", Techniques { merging: false, ..Techniques::default() }),
     ];
     assert_same_without(&kit.world(), &ways, "sky");
 }
@@ -95,7 +93,7 @@ fn points_are_found_by_photons_alone_behind_ground_glass() {
     let kit = ground_and_polished(|kit| {
         kit.light(LightKind::Point { position: DVec3::new(-0.6, 0.9, 0.3), intensity: [2.0; 3] });
     });
-    let ways = [("samples", Techniques { sampling: false, ..ALL })];
+    let ways = [("samples", Techniques { sampling: false, ..Techniques::default() })];
     assert_same_without(&kit.world(), &ways, "point");
 }
 
@@ -111,9 +109,9 @@ fn in_fog_each_way_finds_the_lamp() {
     kit.description.media.push(fog.into());
     kit.description.surrounding = Some("fog".into());
     let ways = [
-        ("hits", Techniques { hits: false, ..ALL }),
-        ("samples", Techniques { sampling: false, ..ALL }),
-        ("photons", Techniques { merging: false, ..ALL }),
+        ("hits", Techniques { hits: false, ..Techniques::default() }),
+        ("samples", Techniques { sampling: false, ..Techniques::default() }),
+        ("photons", Techniques { merging: false, ..Techniques::default() }),
     ];
     assert_same_without(&kit.world(), &ways, "fog");
 }

@@ -59,8 +59,9 @@ fn the_sky_is_seen_in_a_window_and_the_floor_around_it() {
         assert_mean(&estimate(&world, view, SAMPLES), expected, &format!("window at {degrees}°"));
         for index in 0..100 {
             let value = f64::from(sample(&world, view, world.camera_media[0].clone(), index));
-            let is_one_of_both = (value / sky - 1.0).abs() < 1e-5 || (value / bottom - 1.0).abs() < 1e-5;
-            assert!(is_one_of_both, "{degrees}°: {value} is neither sky nor floor");
+            // A path is split between the two, or goes the way of one where the other would be faint.
+            let is_whole = [expected, sky, bottom].iter().any(|known| (value / known - 1.0).abs() < 1e-4);
+            assert!(is_whole, "{degrees}°: {value} is neither both, {expected}, nor sky nor floor");
         }
     }
     for degrees in [48.62_f64, 55.0, 75.0, 89.0] {

@@ -2,7 +2,7 @@
 //!
 //! `integrator` (whitted, path, photon-map, merging, debug), `passes`, `seed`, `sampler` (sobol, independent),
 //! `min_weight`, `max_depth`, `light_samples`, `march` ("adaptive", `{ adaptive = stations on a mean free path }` or the length of a
-//! step), `debug` (what that integrator shows), and the table `photon_map`. Each has a default that the renderer chooses.
+//! step), `without` (parts of `path` and `merging` to leave out), `debug` (what that integrator shows), and the table `photon_map`. Each has a default that the renderer chooses.
 
 use super::document::Value;
 use super::field::Field;
@@ -10,7 +10,7 @@ use super::photon_map;
 use super::table::Table;
 use crate::Result;
 use crate::limits::Limits;
-use hyaline_scene::{DebugView, MarchStep, SamplerKind, Settings};
+use hyaline_scene::{DebugView, MarchStep, SamplerKind, Settings, Techniques};
 
 /// Most places on a mean free path where a march may ask for light.
 const MOST_STATIONS: f64 = 1000.0;
@@ -64,11 +64,24 @@ pub(super) fn read(mut table: Table<'_>, metres: f64, settings: &mut Settings) -
         settings.light_samples = Some(samples);
     }
     settings.march = table.read("march", settings.march, |field| march(field, metres))?;
+    if let Some(field) = table.take("without") {
+        without(field, &mut settings.techniques)?;
+    }
     settings.debug = table.read("debug", settings.debug, |field| field.choice(&DEBUG_VIEWS))?;
     if let Some(field) = table.take("photon_map") {
         photon_map::read(field.table("settings.photon_map")?, metres, &mut settings.photon_map)?;
     }
     table.finish()
+}
+
+/// Parts of `path` and `merging` that are left out.
+fn without(field: Field<'_>, techniques: &mut Techniques) -> Result<()> {
+    for part in field.items_or_one()? {
+        if !techniques.leave_out(part.string()?) {
+            return Err(part.no_such_choice(&Techniques::names().collect::<Vec<_>>()));
+        }
+    }
+    Ok(())
 }
 
 /// "adaptive", `{ adaptive = stations on a mean free path }`, or the length of a step.

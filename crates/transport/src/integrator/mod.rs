@@ -52,28 +52,8 @@ pub struct RenderSettings {
     pub photon_map: hyaline_scene::PhotonMapSettings,
     /// `debug`: what it shows.
     pub debug: hyaline_scene::DebugView,
-    /// `path`, `merging`: which ways of finding light count; less than all for tests and ablations.
-    pub techniques: Techniques,
-}
-
-/// Which ways of finding light count where several can.
-///
-/// Hits and samples that are off count nothing where another way makes the same path, and all where none does: so the
-/// mean stays as it is, and each way can be shown to do alone what it does with the others.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Techniques {
-    /// Paths that come to a light by themselves.
-    pub hits: bool,
-    /// Shadow rays to places on lights.
-    pub sampling: bool,
-    /// Photons, which `merging` alone has; none is sent where this is off.
-    pub merging: bool,
-}
-
-impl Default for Techniques {
-    fn default() -> Self {
-        Self { hits: true, sampling: true, merging: true }
-    }
+    /// `path`, `merging`: what they do; less than all for tests and ablations.
+    pub techniques: hyaline_scene::Techniques,
 }
 
 impl Default for RenderSettings {
@@ -87,7 +67,7 @@ impl Default for RenderSettings {
             march: hyaline_scene::MarchStep::default(),
             photon_map: hyaline_scene::PhotonMapSettings::default(),
             debug: hyaline_scene::DebugView::default(),
-            techniques: Techniques::default(),
+            techniques: hyaline_scene::Techniques::default(),
         }
     }
 }

@@ -97,7 +97,7 @@ impl Eye<'_> {
     }
 
     fn estimate(&self, path: Path, draws: &mut Draws<'_>, first: &mut Option<&mut PixelSample>) -> Spectrum {
-        if !self.world.lights.any_can_be_met() {
+        if !self.settings.techniques.splitting || !self.world.lights.any_can_be_met() {
             return self.follow(path, draws, first);
         }
         let (light, arrived) = self.over_polished(path, draws, first);

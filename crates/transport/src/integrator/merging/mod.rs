@@ -2,7 +2,7 @@
 //!
 //! Path tracing is hard to beat but for two kinds of light: what reaches a rough surface (or a particle of a medium)
 //! through polished ones, a caustic, and what a small bright place throws into the room. There photons do what paths
-//! cannot. A pass does this:
+//! cannot. Before the first pass, `pilot` learns from small pictures where photons are worth sending. A pass does this:
 //!
 //! 1. `sender` says how many photons leave the lights, and where to: some are aimed at what throws caustics, some go
 //!    everywhere.
@@ -58,7 +58,7 @@ impl Integrator for MergingIntegrator {
         _cancel: &AtomicBool,
         stats: &mut Stats,
     ) -> Box<dyn Prepared + 'w> {
-        let mut senders = Senders::new(world, view, settings.techniques.merging);
+        let mut senders = Senders::new(world, view, settings.techniques);
         if senders.any() {
             pilot::teach(world, view, settings, &mut senders, stats);
         }
@@ -80,7 +80,8 @@ struct Merging<'w> {
 impl Prepared for Merging<'_> {
     fn begin_pass<'a>(&'a self, pass: u32, stats: &mut Stats) -> Box<dyn Pass + 'a> {
         let Self { world, view, settings, senders, .. } = self;
-        let radius = GatherRadius::new(&world.cameras[view.camera], radius::Shrink::of_pass(pass));
+        let shrunk = if settings.techniques.shrinking { pass } else { 0 };
+        let radius = GatherRadius::new(&world.cameras[view.camera], radius::Shrink::of_pass(shrunk));
         let landed = Light { world, senders, settings, radius }.trace(pass, stats);
         Box::new(MergingPass { merging: self, pass, landed, radius })
     }

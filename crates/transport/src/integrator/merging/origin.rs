@@ -1,10 +1,10 @@
 //! Where a photon comes from, as far as weights ask.
 
-use crate::Techniques;
 use crate::direct;
 use crate::photon::PhotonStart;
 use hyaline_geometry::SurfaceHit;
 use hyaline_math::{Vec2, Vec3};
+use hyaline_scene::Techniques;
 use hyaline_world::World;
 use hyaline_world::light::Light;
 

@@ -55,20 +55,24 @@ pub(super) fn teach(
     let settings = RenderSettings { seed: settings.seed ^ OTHER_SEED, ..*settings };
     let mut pilot = Pilot { world, view, settings, size, scale, stats };
     let coarse_pixels = size[0] * size[1];
-    senders.send(coarse_pixels, true);
+    let techniques = settings.techniques;
+    senders.send(coarse_pixels, techniques.broad);
     let mut known = [Vec::new(), Vec::new()];
     let mut lesson = 0;
-    while lesson < LESSONS || lesson < MOST_LESSONS && is_hard_to_find(senders, &known) {
+    while techniques.guiding
+        && (lesson < LESSONS || lesson < MOST_LESSONS && is_hard_to_find(senders, &known))
+    {
         pilot.learn(senders, lesson, &mut known);
         lesson += 1;
     }
     // In media that scatter it is broad photons that show shafts of light, and paths find those so rarely that a trial would
     // be won by those who miss them.
-    let broad = world.has_volumes || senders.broad.count == 0 || {
-        let with = pilot.trial(senders);
-        senders.send(coarse_pixels, false);
-        !pilot.trial(senders).is_better_than(&with)
-    };
+    let broad = techniques.broad
+        && (world.has_volumes || senders.broad.count == 0 || {
+            let with = pilot.trial(senders);
+            senders.send(coarse_pixels, false);
+            !pilot.trial(senders).is_better_than(&with)
+        });
     senders.send(pixels, broad);
 }
 

@@ -11,7 +11,7 @@ use crate::photon::PhotonEmitter;
 use crate::photon::guide::Guide;
 use hyaline_math::Vec3;
 use hyaline_scattering::MediumSet;
-use hyaline_scene::ProjectionMaps;
+use hyaline_scene::{ProjectionMaps, Techniques};
 use hyaline_world::World;
 use hyaline_world::light::DirectSample;
 
@@ -41,16 +41,17 @@ pub(in crate::integrator) struct Senders<'w> {
 }
 
 impl<'w> Senders<'w> {
-    /// - `is_on`: whether photons are sent at all.
-    pub(in crate::integrator) fn new(world: &'w World, view: &View, is_on: bool) -> Self {
+    /// None is sent where `merging` is off.
+    pub(in crate::integrator) fn new(world: &'w World, view: &View, techniques: Techniques) -> Self {
         let sender = |maps, is_aimed| {
             let emitter = PhotonEmitter::new(world, maps, PROJECTION_CELLS);
             Sender { emitter, count: 0, is_aimed, guide: Guide::default() }
         };
-        let (aimed, broad) = (sender(ProjectionMaps::Cells, true), sender(ProjectionMaps::None, false));
+        let aimed_at = if techniques.projection { ProjectionMaps::Cells } else { ProjectionMaps::None };
+        let (aimed, broad) = (sender(aimed_at, true), sender(ProjectionMaps::None, false));
         let mut senders = Self { aimed, broad };
-        if is_on {
-            senders.send(view.width * view.height, true);
+        if techniques.merging {
+            senders.send(view.width * view.height, techniques.broad);
         }
         senders
     }

@@ -37,7 +37,7 @@ pub(super) fn compare_all(
     let (world, settings) = (&stage.world, RenderSettings::default());
     let view =
         View { camera: 0, width: SIZE.0, height: SIZE.1, filter: PixelFilter::new(&FilterDescription::Box) };
-    let senders = Senders::new(world, &view, true);
+    let senders = Senders::new(world, &view, settings.techniques);
     let radius = GatherRadius::new(&world.cameras[0], Shrink::of_pass(PASS));
     let sent = Photons { world, senders: &senders, settings: &settings, radius };
     let landed = sent.trace(PASS, &mut Stats::default());

@@ -6,7 +6,7 @@ mod scene_kit;
 use super::*;
 use crate::photon::PhotonEmitter;
 use hyaline_math::DVec3;
-use hyaline_scene::{PixelFilter as FilterDescription, ProjectionMaps};
+use hyaline_scene::{PixelFilter as FilterDescription, ProjectionMaps, Techniques};
 use hyaline_testkit::{Moments, Random, welch_t};
 use hyaline_world::camera::PixelFilter;
 use scene_kit::{SceneKit, rectangle, sphere};
@@ -80,10 +80,10 @@ fn taught<'w>(world: &'w World, senders: Senders<'w>) -> Senders<'w> {
 #[test]
 fn a_small_glass_ball_under_the_sky_is_found() {
     let world = ball_under_the_sky().world();
-    let mut unguided = Senders::new(&world, &view(), true);
+    let mut unguided = Senders::new(&world, &view(), Techniques::default());
     unguided.aimed.emitter = PhotonEmitter::new(&world, ProjectionMaps::None, 1);
     unguided.send(SIZE * SIZE, true);
-    let guided = taught(&world, Senders::new(&world, &view(), true));
+    let guided = taught(&world, Senders::new(&world, &view(), Techniques::default()));
     let (rare, mean) = merged(&world, &unguided, 400);
     let (common, same_mean) = merged(&world, &guided, 100);
     assert!(rare > 0.0 && common > 50.0 * rare, "{rare} unguided, {common} guided");
@@ -93,8 +93,8 @@ fn a_small_glass_ball_under_the_sky_is_found() {
 #[test]
 fn light_that_comes_through_a_hole_is_learned() {
     let world = ball_in_a_room_with_a_hole().world();
-    let aimed = Senders::new(&world, &view(), true);
-    let guided = taught(&world, Senders::new(&world, &view(), true));
+    let aimed = Senders::new(&world, &view(), Techniques::default());
+    let guided = taught(&world, Senders::new(&world, &view(), Techniques::default()));
     let (rare, mean) = merged(&world, &aimed, 200);
     let (common, same_mean) = merged(&world, &guided, 200);
     assert!(common > 3.0 * rare, "{rare} aimed, {common} guided");
@@ -112,8 +112,8 @@ fn a_senseless_guide_keeps_the_mean() {
         };
         Guide::learn(&(0..5000).map(|_| found()).collect::<Vec<_>>())
     };
-    let aimed = Senders::new(&world, &view(), true);
-    let mut misled = Senders::new(&world, &view(), true);
+    let aimed = Senders::new(&world, &view(), Techniques::default());
+    let mut misled = Senders::new(&world, &view(), Techniques::default());
     (misled.aimed.guide, misled.broad.guide) = (senseless(1), senseless(2));
     assert_ne!(misled.aimed.guide, Guide::default());
     let (_, mean) = merged(&world, &aimed, 300);
@@ -125,7 +125,7 @@ fn a_senseless_guide_keeps_the_mean() {
 fn broad_photons_are_left_away_where_they_bring_nothing() {
     let broad = |kit: &SceneKit| {
         let world = kit.world();
-        let (mut senders, view) = (Senders::new(&world, &view(), true), view());
+        let (mut senders, view) = (Senders::new(&world, &view(), Techniques::default()), view());
         teach(&world, &view, &RenderSettings::default(), &mut senders, &mut Stats::default());
         senders.broad.count
     };
