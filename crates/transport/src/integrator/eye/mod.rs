@@ -14,6 +14,7 @@ mod hit;
 pub(super) mod merges;
 pub(super) mod place;
 pub(super) mod radius;
+pub(super) mod reach;
 mod split;
 mod surface;
 pub(super) mod tally;

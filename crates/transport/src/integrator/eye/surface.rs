@@ -3,9 +3,8 @@
 use super::aim::Cones;
 use super::merges::{Beyond, Passed, Place};
 use super::radius::INDIRECT;
-use super::tally::Tally;
 use super::weight::{self, Side};
-use super::{Draws, Eye, Path};
+use super::{Draws, Eye, Path, reach};
 use crate::integrator::merging::{LandedPhoton, Photons};
 use crate::photon::specular::is_specular;
 use crate::shadow;
@@ -26,7 +25,7 @@ impl Eye<'_> {
         let aim = self.aim_of(path).filter(|_| is_wide).and_then(|aim| aim.at_surface(vertex, wo));
         if !is_delta && self.may_bounce(path) {
             if let Some(photons) = &self.photons {
-                path.light += self.gather(path, vertex, wo, photons, &mut draws.tally);
+                path.light += self.gather(path, vertex, wo, photons, draws);
             }
             path.light += path.throughput * self.sampled_light(path, vertex, wo, aim.as_ref(), draws);
         }
@@ -87,17 +86,36 @@ impl Eye<'_> {
         vertex: &Vertex,
         wo: Vec3,
         photons: &Photons<'_>,
-        tally: &mut Tally<'_>,
+        draws: &mut Draws<'_>,
     ) -> Spectrum {
-        let p = vertex.hit.p;
-        let mut light_of = |gather: &Gather<'_>, photon: &LandedPhoton| {
+        let (p, ng) = (vertex.hit.p, vertex.hit.ng);
+        let [caustic, indirect] = self.gathers(path, vertex, wo, photons);
+        let mut reaches_over = [false; 2];
+        let mut light_of = |gather: &Gather<'_>, photon: &LandedPhoton, reaches_over: &mut bool| {
+            if !photon.n.is_one_surface(ng) {
+                *reaches_over = true;
+                return Spectrum::ZERO;
+            }
             let light = gather.light_of(photon) * gather.carried;
-            tally.note(photon.id, light);
+            draws.tally.note(photon.id, light);
             light
         };
-        let [caustic, indirect] = self.gathers(path, vertex, wo, photons);
-        photons.landed.caustic(p, caustic.radius, |photon| light_of(&caustic, photon))
-            + photons.landed.indirect(p, indirect.radius, |photon| light_of(&indirect, photon))
+        let light = [
+            photons
+                .landed
+                .caustic(p, caustic.radius, |photon| light_of(&caustic, photon, &mut reaches_over[0])),
+            photons
+                .landed
+                .indirect(p, indirect.radius, |photon| light_of(&indirect, photon, &mut reaches_over[1])),
+        ];
+        let mut sum = Spectrum::ZERO;
+        for ((light, reaches_over), gather) in light.into_iter().zip(reaches_over).zip([caustic, indirect]) {
+            sum += match reaches_over && !light.is_zero() {
+                true => light * reach::disc_over_part(self.world, vertex, wo, gather.radius, draws),
+                false => light,
+            };
+        }
+        sum
     }
 
     /// The same photon by photon: those that have come over polished and nearly polished surfaces alone, and others.

@@ -2,6 +2,7 @@
 
 use super::beams::{Beam, Beams, Passing};
 use crate::integrator::eye::radius::GatherRadius;
+use crate::integrator::eye::reach::RoughNormal;
 use crate::photon::tree::{PointTree, Region};
 use hyaline_math::{Ray, Vec3};
 use hyaline_scattering::MediumId;
@@ -38,6 +39,8 @@ impl PhotonId {
 pub(in crate::integrator) struct LandedPhoton {
     /// The way it travelled, unit.
     pub(in crate::integrator) direction: Vec3,
+    /// Geometric normal of the surface that it lies on; none in a medium.
+    pub(in crate::integrator) n: RoughNormal,
     /// W, over all photons of its sender in the pass; in a medium what it scatters.
     pub(in crate::integrator) flux: Spectrum,
     /// Sum of the squares of the densities of the other ways to make its path, over that of merging here but for the

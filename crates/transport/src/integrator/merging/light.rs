@@ -12,6 +12,7 @@ use crate::in_volume;
 use crate::integrator::eye::merges::Place;
 use crate::integrator::eye::place::volume_factor;
 use crate::integrator::eye::radius::{GatherRadius, INDIRECT};
+use crate::integrator::eye::reach::RoughNormal;
 use crate::integrator::eye::weight::{self, Side};
 use crate::photon::emission::start_numbers;
 use crate::photon::specular::is_specular_event;
@@ -170,7 +171,7 @@ impl Light<'_> {
         if photon.lands() && !vertex.bsdf.is_delta() {
             let points = &mut chunk.points;
             let points = if photon.is_indirect { &mut points.indirect } else { &mut points.caustic };
-            points.push((vertex.hit.p, photon.landed(photon.flux)));
+            points.push((vertex.hit.p, photon.landed(vertex.hit.ng)));
         }
         let wo = -photon.ray.direction;
         let (u_lobe, u): (f32, Vec2) = (sampler.next_1d(), sampler.next_2d());
@@ -220,7 +221,7 @@ impl Light<'_> {
         photon.flux *= place.weight;
         let medium = &self.world.media[place.medium.index()];
         if photon.lands() && Place::in_medium(medium) == Place::Grid {
-            chunk.points.volume.push((place.p, photon.landed(photon.flux)));
+            chunk.points.volume.push((place.p, photon.landed(Vec3::ZERO)));
         }
         let may_scatter = if photon.vertices == 0 { !photon.sender.is_aimed } else { !photon.comes_straight };
         if !may_scatter || !self.may_bounce(photon) {
@@ -325,9 +326,10 @@ impl Photon<'_> {
         (self.vertices == 0).then_some(self.origin)
     }
 
-    fn landed(&self, flux: Spectrum) -> LandedPhoton {
-        let Self { others, bounces, id, .. } = *self;
-        LandedPhoton { direction: self.ray.direction, flux, others, bounces, id }
+    /// - `n`: geometric normal where it lands; 0 in a medium.
+    fn landed(&self, n: Vec3) -> LandedPhoton {
+        let Self { flux, others, bounces, id, .. } = *self;
+        LandedPhoton { direction: self.ray.direction, n: RoughNormal::new(n), flux, others, bounces, id }
     }
 
     /// Accounts for a vertex that is not singular.
