@@ -18,7 +18,7 @@ pub const START_NUMBERS: usize = 5;
 const EVEN_SHARE: f64 = 0.5;
 /// Density where light is found, on geometric average, from which on photons are guided: those that find something have more
 /// to do, and below this it does not pay.
-const LEAST_GAIN: f64 = 2.0;
+const LEAST_GAIN: f64 = 8.0;
 /// Found light that a box must hold to be halved, photons.
 const LEAST_FOUND: usize = 8;
 /// Halvings of a box, at most.
