@@ -7,13 +7,11 @@ use crate::binary::{self, last_json};
 use crate::conformance::folder::{self, Scene};
 use crate::workspace;
 use clap::Args;
+use hyaline_scene::Techniques;
 use serde_json::Value;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::process::Command;
 
-/// Parts that can be left out; one column each.
-const PARTS: [&str; 8] =
-    ["splitting", "projection", "guide", "broad-photons", "photons", "hits", "samples", "shrinking"];
 /// Seconds that a picture of its own is rendered for, over those of a run.
 const LONGER: f64 = 16.0;
 
@@ -39,30 +37,19 @@ pub(crate) struct Arguments {
 /// There is no scene, or one can't be rendered.
 pub(crate) fn run(arguments: &Arguments) -> Result<(), String> {
     let root = workspace::root();
-    let scenes = scenes(&root, arguments)?;
+    let scenes = folder::choose(&arguments.folders, &arguments.only)?;
     let ablation =
         Ablation { arguments, binary: binary::build(&root)?, output: root.join("target/ablations") };
     std::fs::create_dir_all(&ablation.output)
         .map_err(|error| format!("{}: {error}", ablation.output.display()))?;
-    println!("| scene | relmse of the whole | without {} |", PARTS.join(" | "));
-    println!("|---|---|{}", "---|".repeat(PARTS.len()));
+    let parts: Vec<&str> = Techniques::names().collect();
+    println!("| scene | relmse of the whole | without {} |", parts.join(" | "));
+    println!("|---|---|{}", "---|".repeat(parts.len()));
     for scene in scenes {
         let row = ablation.row(&scene).map_err(|error| format!("{}: {error}", scene.name))?;
         println!("{row}");
     }
     Ok(())
-}
-
-fn scenes(root: &Path, arguments: &Arguments) -> Result<Vec<Scene>, String> {
-    let gallery = [root.join("scenes")];
-    let folders = if arguments.folders.is_empty() { &gallery[..] } else { &arguments.folders[..] };
-    let mut scenes = Vec::new();
-    for folder in folders {
-        scenes.extend(folder::find(folder)?);
-    }
-    let only = &arguments.only;
-    scenes.retain(|scene| only.is_empty() || only.iter().any(|text| scene.name.contains(text.as_str())));
-    if scenes.is_empty() { Err("no scene (.xml, .toml) there or below".into()) } else { Ok(scenes) }
 }
 
 struct Ablation<'a> {
@@ -88,7 +75,7 @@ impl Ablation<'_> {
         };
         let whole = error(None)?;
         let mut row = format!("| {} | {whole:.1e} |", scene.name);
-        for part in PARTS {
+        for part in Techniques::names() {
             row.push_str(&format!(" {:.2} |", error(Some(part))? / whole));
         }
         Ok(row)

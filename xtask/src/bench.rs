@@ -43,7 +43,7 @@ pub(crate) struct Arguments {
 /// There is no scene, or one can't be rendered.
 pub(crate) fn run(arguments: &Arguments) -> Result<(), String> {
     let root = workspace::root();
-    let scenes = scenes(&root, arguments)?;
+    let scenes = folder::choose(&arguments.folders, &arguments.only)?;
     let this = binary::build(&root)?;
     let output = root.join("target/bench");
     std::fs::create_dir_all(&output).map_err(|error| format!("{}: {error}", output.display()))?;
@@ -59,18 +59,6 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), String> {
         println!("\nmedian of the ratios: {middle:.3}");
     }
     Ok(())
-}
-
-fn scenes(root: &Path, arguments: &Arguments) -> Result<Vec<Scene>, String> {
-    let gallery = [root.join("scenes")];
-    let folders = if arguments.folders.is_empty() { &gallery[..] } else { &arguments.folders[..] };
-    let mut scenes = Vec::new();
-    for folder in folders {
-        scenes.extend(folder::find(folder)?);
-    }
-    let only = &arguments.only;
-    scenes.retain(|scene| only.is_empty() || only.iter().any(|text| scene.name.contains(text.as_str())));
-    if scenes.is_empty() { Err("no scene (.xml, .toml) there or below".into()) } else { Ok(scenes) }
 }
 
 fn head(arguments: &Arguments) -> String {

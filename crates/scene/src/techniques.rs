@@ -26,9 +26,11 @@ pub struct Techniques {
     pub shrinking: bool,
 }
 
+/// Where a part is switched off.
+type Switch = fn(&mut Techniques) -> &mut bool;
+
 /// All parts, by the names they go by in scene files.
-#[expect(clippy::type_complexity, reason = "a name and the switch that it stands for")]
-const PARTS: [(&str, fn(&mut Techniques) -> &mut bool); 8] = [
+const PARTS: [(&str, Switch); 8] = [
     ("hits", |all| &mut all.hits),
     ("samples", |all| &mut all.sampling),
     ("photons", |all| &mut all.merging),

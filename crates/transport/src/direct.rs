@@ -132,8 +132,3 @@ pub fn sky_radiance(world: &World, ray: &Ray, sampled: Option<(Vec3, f32)>, visi
     }
     result
 }
-
-/// Whether no ray can meet the light, so that only sampling finds it.
-pub fn is_delta(light: &Light) -> bool {
-    matches!(light, Light::Point(_) | Light::Spot(_) | Light::Projector(_) | Light::Directional(_))
-}

@@ -189,34 +189,6 @@ fn a_point_is_a_very_small_lamp() {
     }
 }
 
-/// A closed room of matte walls with a lamp at its ceiling, seen into a corner of its floor.
-fn corner() -> SceneKit {
-    let (x, y, z) = (DVec3::X, DVec3::Y, DVec3::Z);
-    let mut kit = SceneKit::new();
-    kit.matte("matte", 0.7);
-    for (name, center, half_u, half_v) in [
-        ("left", -x, y, z),
-        ("right", x, y, z),
-        ("back", -z, x, y),
-        ("front", z, x, y),
-        ("floor", -y, x, z),
-        ("ceiling", y, x, z),
-    ] {
-        kit.surface(name, rectangle(center, half_u, half_v), "matte");
-    }
-    kit.lamp("lamp", rectangle(DVec3::Y * 0.95, x * 0.3, z * 0.3), 10.0);
-    kit.camera(DVec3::ZERO, DVec3::new(-1.0, -1.0, -1.0));
-    kit
-}
-
-#[test]
-fn corners_are_not_dark() {
-    // Photons are gathered over a third of the picture here, and most discs reach over an edge.
-    let world = corner().world();
-    let (merging, path) = (means(&world, "merging", 0..24), means(&world, "path", 0..400));
-    assert_same(&merging, &path, 0.01, "corner");
-}
-
 #[test]
 fn a_pass_has_the_same_bits_on_any_number_of_threads() {
     let mut kit = hollow(lamp_ball);

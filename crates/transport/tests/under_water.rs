@@ -58,10 +58,19 @@ fn the_sky_is_seen_in_a_window_and_the_floor_around_it() {
         let expected = (1.0 - r) * sky + r * bottom;
         assert_mean(&estimate(&world, view, SAMPLES), expected, &format!("window at {degrees}°"));
         for index in 0..100 {
-            let value = f64::from(sample(&world, view, world.camera_media[0].clone(), index));
-            // A path is split between the two, or goes the way of one where the other would be faint.
-            let is_whole = [expected, sky, bottom].iter().any(|known| (value / known - 1.0).abs() < 1e-4);
-            assert!(is_whole, "{degrees}°: {value} is neither both, {expected}, nor sky nor floor");
+            let set = &world.camera_media[0];
+            let is_one_of_both =
+                |value: f64| (value / sky - 1.0).abs() < 1e-5 || (value / bottom - 1.0).abs() < 1e-5;
+            let one_way = f64::from(unsplit_sample(&world, view, set.clone(), index));
+            assert!(is_one_of_both(one_way), "{degrees}°: {one_way} is neither sky nor floor");
+            // A path is split, but where one of its parts would be faint. Near the critical angle shares are steep in f32.
+            let value = f64::from(sample(&world, view, set.clone(), index));
+            let is_right = if r.min(1.0 - r) > 0.02 {
+                (value / expected - 1.0).abs() < 1e-4
+            } else {
+                is_one_of_both(value)
+            };
+            assert!(is_right, "{degrees}°: {value}, not {expected} of sky and floor");
         }
     }
     for degrees in [48.62_f64, 55.0, 75.0, 89.0] {

@@ -45,6 +45,21 @@ pub(crate) fn find(folder: &Path) -> Result<Vec<Scene>, String> {
     Ok(scenes)
 }
 
+/// The scenes below some folders, or those of the gallery where there are none, whose names contain one of `only`, if any.
+///
+/// # Errors
+/// A folder can't be read, or there is no such scene.
+pub(crate) fn choose(folders: &[PathBuf], only: &[String]) -> Result<Vec<Scene>, String> {
+    let gallery = [workspace::root().join("scenes")];
+    let folders = if folders.is_empty() { &gallery[..] } else { folders };
+    let mut scenes = Vec::new();
+    for folder in folders {
+        scenes.extend(find(folder)?);
+    }
+    scenes.retain(|scene| only.is_empty() || only.iter().any(|text| scene.name.contains(text.as_str())));
+    if scenes.is_empty() { Err("no scene (.xml, .toml) there or below".into()) } else { Ok(scenes) }
+}
+
 fn search(root: &Path, folder: &Path, scenes: &mut Vec<Scene>) -> Result<(), String> {
     let entries = workspace::entries(folder).map_err(|error| format!("{}: {error}", folder.display()))?;
     let files = scene_files(&entries);

@@ -127,7 +127,7 @@ impl Tracer<'_> {
         for (stop, set) in self.found.stops() {
             let place = VolumeLight { world, p: stop.p, medium: stop.medium, wo: -ray.direction, set };
             for lamp in world.lights.lights() {
-                let count = if direct::is_delta(lamp) { 1 } else { self.settings.light_samples };
+                let count = if lamp.can_be_met() { self.settings.light_samples } else { 1 };
                 let factor = stop.weight * stop.sigma_s * (1.0 / count as f32);
                 for _ in 0..count {
                     light += factor * place.from_light(lamp, sampler.next_2d(), |_, _| 1.0, self.stats);
@@ -258,7 +258,7 @@ impl Tracer<'_> {
         set: &MediumSet,
         sampler: &mut Sampler,
     ) -> Spectrum {
-        self.lights_where(vertex, wo, set, sampler, direct::is_delta)
+        self.lights_where(vertex, wo, set, sampler, |light| !light.can_be_met())
     }
 
     fn lights_where(
@@ -272,7 +272,7 @@ impl Tracer<'_> {
         let direct = DirectLight { world: self.world, vertex, wo, set, use_mis: false };
         let mut result = Spectrum::ZERO;
         for light in self.world.lights.lights().iter().filter(|light| is_meant(light)) {
-            let count = if direct::is_delta(light) { 1 } else { self.settings.light_samples };
+            let count = if light.can_be_met() { self.settings.light_samples } else { 1 };
             for _ in 0..count {
                 result += direct.from_light(light, 1.0, sampler.next_2d(), self.stats) / count as f32;
             }

@@ -60,10 +60,8 @@ impl Default for Guide {
 impl Guide {
     /// Learns from photons; nothing is known without any that found something, and where light is found nearly everywhere.
     pub fn learn(found: &[Found]) -> Self {
-        let count = found.iter().filter(|found| found.worth > 0.0).count();
-        let total: f64 = found.iter().map(|found| f64::from(found.worth)).sum();
-        let most = MOST_WORTH * total / count.max(1) as f64;
         let mut all: Vec<Found> = found.iter().copied().filter(|found| found.worth > 0.0).collect();
+        let most = MOST_WORTH * sum(&all) / all.len() as f64;
         for found in &mut all {
             found.worth = found.worth.min(most as f32);
         }
@@ -72,7 +70,8 @@ impl Guide {
             return Self::default();
         }
         let mut guide = Self::default();
-        let whole = Box { low: [0.0; START_NUMBERS], size: [1.0; START_NUMBERS], share: 1.0, volume: 1.0 };
+        let whole =
+            NumberBox { low: [0.0; START_NUMBERS], size: [1.0; START_NUMBERS], share: 1.0, volume: 1.0 };
         guide.halve(0, &mut all, whole, total, 0);
         let logs = all
             .iter()
@@ -124,31 +123,27 @@ impl Guide {
         }
     }
 
-    /// Memory of the histogram, bytes.
-    pub fn memory(&self) -> usize {
-        self.nodes.len() * size_of::<Node>()
-    }
-
     /// - `all`: what was found in the box; it is put in another order.
-    fn halve(&mut self, node: usize, all: &mut [Found], whole: Box, total: f64, depth: u32) {
+    fn halve(&mut self, node: usize, all: &mut [Found], whole: NumberBox, total: f64, depth: u32) {
         let density = whole.share / whole.volume;
         self.nodes[node] = Node::Whole { density: density as f32 };
         if all.len() < LEAST_FOUND || depth >= DEEPEST {
             return;
         }
         let worth = sum(all);
-        let low_worth = |axis: usize| {
-            let middle = whole.low[axis] + 0.5 * whole.size[axis];
-            all.iter()
-                .filter(|found| found.numbers[axis] < middle)
-                .map(|found| f64::from(found.worth))
-                .sum::<f64>()
-        };
+        let middle: [f32; START_NUMBERS] =
+            std::array::from_fn(|axis| whole.low[axis] + 0.5 * whole.size[axis]);
+        let mut low_worth = [0.0; START_NUMBERS];
+        for found in all.iter() {
+            for axis in (0..START_NUMBERS).filter(|&axis| found.numbers[axis] < middle[axis]) {
+                low_worth[axis] += f64::from(found.worth);
+            }
+        }
         // The axis along which the halves differ most.
-        let contrast = |axis: usize| (low_worth(axis) - 0.5 * worth).abs();
+        let contrast = low_worth.map(|low| (low - 0.5 * worth).abs());
         let axis = (1..START_NUMBERS)
-            .fold(0, |best, axis| if contrast(axis) > contrast(best) { axis } else { best });
-        let learned = low_worth(axis);
+            .fold(0, |best, axis| if contrast[axis] > contrast[best] { axis } else { best });
+        let learned = low_worth[axis];
         let even = 0.5 * EVEN_SHARE * whole.volume;
         let shares =
             [learned, worth - learned].map(|worth| even + (1.0 - EVEN_SHARE) * worth.max(0.0) / total);
@@ -156,8 +151,9 @@ impl Guide {
         let low_share = (shares[0] / (shares[0] + shares[1])) as f32;
         self.nodes[node] = Node::Halved { axis: axis as u8, low_share, children };
         self.nodes.extend([Node::Whole { density: 1.0 }; 2]);
-        let middle = whole.low[axis] + 0.5 * whole.size[axis];
-        let split = partition(all, |found| found.numbers[axis] < middle);
+        let is_low = |found: &Found| found.numbers[axis] < middle[axis];
+        all.sort_by_key(|found| !is_low(found));
+        let split = all.partition_point(is_low);
         let (low, high) = all.split_at_mut(split);
         // By the share as it is rounded, so that numbers are drawn with just the density that is told.
         let share = f64::from(low_share);
@@ -175,7 +171,7 @@ impl Guide {
 
 /// A box of numbers while a guide is learned.
 #[derive(Clone, Copy)]
-struct Box {
+struct NumberBox {
     low: [f32; START_NUMBERS],
     size: [f32; START_NUMBERS],
     /// Share of the photons that start there.
@@ -185,12 +181,6 @@ struct Box {
 
 fn sum(all: &[Found]) -> f64 {
     all.iter().map(|found| f64::from(found.worth)).sum()
-}
-
-/// Puts what fulfils a condition first, and keeps the order otherwise; returns how many do.
-fn partition(all: &mut [Found], is_first: impl Fn(&Found) -> bool) -> usize {
-    all.sort_by_key(|found| !is_first(found));
-    all.iter().take_while(|found| is_first(found)).count()
 }
 
 #[cfg(test)]

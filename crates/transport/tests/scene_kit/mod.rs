@@ -227,10 +227,19 @@ pub fn settings() -> RenderSettings {
 
 /// One sample of `path` along `ray`, sample number `index`.
 pub fn sample(world: &World, ray: Ray, set: MediumSet, index: u32) -> f32 {
-    let settings = settings();
+    sample_with(&settings(), world, ray, set, index)
+}
+
+/// The same of paths that are not split at polished surfaces.
+pub fn unsplit_sample(world: &World, ray: Ray, set: MediumSet, index: u32) -> f32 {
+    let techniques = Techniques { splitting: false, ..Techniques::default() };
+    sample_with(&RenderSettings { techniques, ..settings() }, world, ray, set, index)
+}
+
+fn sample_with(settings: &RenderSettings, world: &World, ray: Ray, set: MediumSet, index: u32) -> f32 {
     let mut sampler = Sampler::new(settings.sampler, settings.seed, (index % 4096, index / 4096), 0);
     let mut stats = Stats::default();
-    let value = radiance(world, &settings, ray, set, &mut sampler, &mut stats, None);
+    let value = radiance(world, settings, ray, set, &mut sampler, &mut stats, None);
     assert!(stats.never_entered.is_empty(), "left what was never entered: {:?}", stats.never_entered);
     value.mean(world.lanes)
 }
@@ -250,6 +259,21 @@ pub fn assert_mean(moments: &Moments, expected: f64, what: &str) {
     let allowed = 4.0 * error + 1e-4 * expected.abs();
     let mean = moments.mean();
     assert!((mean - expected).abs() <= allowed, "{what}: {mean} ± {error}, expected {expected}");
+}
+
+/// The six walls of a cube from -1 to 1, each of the material 'matte'.
+pub fn walls(kit: &mut SceneKit) {
+    let (x, y, z) = (DVec3::X, DVec3::Y, DVec3::Z);
+    for (name, center, half_u, half_v) in [
+        ("left", -x, y, z),
+        ("right", x, y, z),
+        ("back", -z, x, y),
+        ("front", z, x, y),
+        ("floor", -y, x, z),
+        ("ceiling", y, x, z),
+    ] {
+        kit.surface(name, rectangle(center, half_u, half_v), "matte");
+    }
 }
 
 /// A matte ball with things in it, all of finite curvature, so that no look-up reaches over an edge.

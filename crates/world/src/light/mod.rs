@@ -239,7 +239,7 @@ impl Light {
         }
     }
 
-    /// Whether rays come to it by themselves: it has a surface or is an environment.
+    /// Whether rays come to it by themselves: it has a surface or is an environment. Others only sampling finds.
     pub fn can_be_met(&self) -> bool {
         match self {
             Self::Shape(_) | Self::Mesh(_) | Self::Environment(_) => true,

@@ -52,11 +52,12 @@ pub(super) fn disc_over_part(
     let lies_on_it = |draws: &mut Draws<'_>| {
         let at = warp::sample_disc(draws.sampler.next_2d()) * radius;
         let to = p + frame.to_world(Vec3::new(at.x, at.y, 0.0));
-        let ray = Ray { t_max: BEYOND, ..Ray::new(from, to - from) };
+        let way = to - from;
+        let ray = Ray { t_max: BEYOND * way.length(), ..Ray::new(from, way.normalize()) };
         draws.stats.rays += 1;
         let Some(candidate) = world.geometry.closest(&ray, mask::PATH) else { return false };
         let hit = world.geometry.surface(&ray, &candidate);
-        hit.ng.dot(ng).abs() > FLAT && hit.p.distance_squared(p) < radius * radius * (1.0 + LIFT)
+        hit.ng.dot(ng).abs() > FLAT
     };
     (1..MOST_TRIES).find(|_| lies_on_it(draws)).unwrap_or(MOST_TRIES) as f32
 }

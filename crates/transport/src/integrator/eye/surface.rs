@@ -5,7 +5,7 @@ use super::merges::{Beyond, Passed, Place};
 use super::radius::INDIRECT;
 use super::weight::{self, Side};
 use super::{Draws, Eye, Path, reach};
-use crate::integrator::merging::{LandedPhoton, Photons};
+use crate::integrator::merging::{Landed, LandedPhoton, Photons};
 use crate::photon::specular::is_specular;
 use crate::shadow;
 use crate::walk::Vertex;
@@ -88,34 +88,8 @@ impl Eye<'_> {
         photons: &Photons<'_>,
         draws: &mut Draws<'_>,
     ) -> Spectrum {
-        let (p, ng) = (vertex.hit.p, vertex.hit.ng);
         let [caustic, indirect] = self.gathers(path, vertex, wo, photons);
-        let mut reaches_over = [false; 2];
-        let mut light_of = |gather: &Gather<'_>, photon: &LandedPhoton, reaches_over: &mut bool| {
-            if !photon.n.is_one_surface(ng) {
-                *reaches_over = true;
-                return Spectrum::ZERO;
-            }
-            let light = gather.light_of(photon) * gather.carried;
-            draws.tally.note(photon.id, light);
-            light
-        };
-        let light = [
-            photons
-                .landed
-                .caustic(p, caustic.radius, |photon| light_of(&caustic, photon, &mut reaches_over[0])),
-            photons
-                .landed
-                .indirect(p, indirect.radius, |photon| light_of(&indirect, photon, &mut reaches_over[1])),
-        ];
-        let mut sum = Spectrum::ZERO;
-        for ((light, reaches_over), gather) in light.into_iter().zip(reaches_over).zip([caustic, indirect]) {
-            sum += match reaches_over && !light.is_zero() {
-                true => light * reach::disc_over_part(self.world, vertex, wo, gather.radius, draws),
-                false => light,
-            };
-        }
-        sum
+        caustic.light(photons.landed, draws) + indirect.light(photons.landed, draws)
     }
 
     /// The same photon by photon: those that have come over polished and nearly polished surfaces alone, and others.
@@ -129,6 +103,7 @@ impl Eye<'_> {
         let radius = photons.radius.on_surface(vertex.hit.p);
         let carried = |radius: f32| path.throughput * (1.0 / (PI * radius * radius));
         let caustic = Gather {
+            is_indirect: false,
             carried: carried(radius),
             eye: self,
             path,
@@ -141,7 +116,7 @@ impl Eye<'_> {
         };
         let behind = path.merges.behind(Beyond::Wide);
         let wide = radius * INDIRECT;
-        [caustic, Gather { radius: wide, carried: carried(wide), behind, ..caustic }]
+        [caustic, Gather { is_indirect: true, radius: wide, carried: carried(wide), behind, ..caustic }]
     }
 
     /// Light of one light, chosen at random, by a shadow ray.
@@ -227,6 +202,8 @@ pub(super) struct Gather<'a> {
     vertex: &'a Vertex,
     /// Unit, back along the path.
     wo: Vec3,
+    /// Whether they have been scattered widely on their way.
+    is_indirect: bool,
     radius: f32,
     /// What the path carries, over the area that is gathered from.
     carried: Spectrum,
@@ -239,6 +216,25 @@ pub(super) struct Gather<'a> {
 }
 
 impl Gather<'_> {
+    /// What they bring to the picture.
+    fn light(&self, landed: &Landed, draws: &mut Draws<'_>) -> Spectrum {
+        let Self { eye, vertex, wo, radius, .. } = *self;
+        let mut reaches_over = false;
+        let light = landed.on_surface(self.is_indirect, vertex.hit.p, radius, |photon| {
+            if !photon.n.is_one_surface(vertex.hit.ng) {
+                reaches_over = true;
+                return Spectrum::ZERO;
+            }
+            let light = self.light_of(photon) * self.carried;
+            draws.tally.note(photon.id, light);
+            light
+        });
+        if reaches_over && !light.is_zero() {
+            return light * reach::disc_over_part(eye.world, vertex, wo, radius, draws);
+        }
+        light
+    }
+
     /// Weighted light of a photon, sent back along the path, times the area it is gathered from.
     fn light_of(&self, photon: &LandedPhoton) -> Spectrum {
         let wi = -photon.direction;

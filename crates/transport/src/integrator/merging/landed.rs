@@ -98,25 +98,16 @@ impl Landed {
         self.beams.passed(ray, length, medium, visit);
     }
 
-    /// Sum of the light of every photon on a surface within a radius that has come over polished and nearly polished ones
-    /// alone.
-    pub(in crate::integrator) fn caustic(
+    /// Sum of the light of every photon on a surface within a radius: of those that have been scattered widely on their way,
+    /// or of those that have come over polished and nearly polished surfaces alone.
+    pub(in crate::integrator) fn on_surface(
         &self,
+        is_indirect: bool,
         p: Vec3,
         radius: f32,
         light: impl FnMut(&LandedPhoton) -> Spectrum,
     ) -> Spectrum {
-        sum(&self.caustic, p, radius, light)
-    }
-
-    /// The same of those that have been scattered widely on their way.
-    pub(in crate::integrator) fn indirect(
-        &self,
-        p: Vec3,
-        radius: f32,
-        light: impl FnMut(&LandedPhoton) -> Spectrum,
-    ) -> Spectrum {
-        sum(&self.indirect, p, radius, light)
+        sum(if is_indirect { &self.indirect } else { &self.caustic }, p, radius, light)
     }
 
     /// Sum of the light of every photon in a medium with a grid within a radius.

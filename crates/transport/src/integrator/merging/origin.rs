@@ -1,6 +1,5 @@
 //! Where a photon comes from, as far as weights ask.
 
-use crate::direct;
 use crate::photon::PhotonStart;
 use hyaline_geometry::SurfaceHit;
 use hyaline_math::{Vec2, Vec3};
@@ -27,7 +26,7 @@ pub(in crate::integrator) struct Origin {
 impl Origin {
     pub(super) fn new(world: &World, start: &PhotonStart, at_light: f32, techniques: Techniques) -> Self {
         let PhotonStart { light, origin: p, p_error, n, .. } = *start;
-        let is_delta = direct::is_delta(world.lights.get(light as usize));
+        let is_delta = !world.lights.get(light as usize).can_be_met();
         Self { light, p, p_error, n, at_light, techniques, is_delta }
     }
 

@@ -216,7 +216,7 @@ impl Flight<'_> {
         Lamp {
             start: HandRay { origin, direction },
             end,
-            is_delta: crate::direct::is_delta(light),
+            is_delta: !light.can_be_met(),
             photons: sender.count.into(),
             chances: [chance, lights.direct().probability(index)].map(f64::from),
             emission,

@@ -222,7 +222,7 @@ impl Replay<'_> {
                 Some(self.eye.hit_weight(path, vertex.light? as usize, Some(&vertex.hit)))
             }
             (Event::Sky { .. }, Light::Environment(_)) => Some(self.eye.hit_weight(path, index, None)),
-            (_, light) if crate::direct::is_delta(light) => Some(0.0),
+            (_, light) if !light.can_be_met() => Some(0.0),
             _ => None,
         }
     }

@@ -9,7 +9,7 @@ use hyaline_math::DVec3;
 use hyaline_scene::{PixelFilter as FilterDescription, ProjectionMaps, Techniques};
 use hyaline_testkit::{Moments, Random, welch_t};
 use hyaline_world::camera::PixelFilter;
-use scene_kit::{SceneKit, rectangle, sphere};
+use scene_kit::{SceneKit, rectangle, sphere, walls};
 use std::collections::HashSet;
 
 const SIZE: u32 = 32;
@@ -50,9 +50,14 @@ fn ball_in_a_room_with_a_hole() -> SceneKit {
 
 /// Distinct photons of the aimed sender that paths merge, over all that it sends; and the mean of each pass.
 fn merged(world: &World, senders: &Senders<'_>, passes: u32) -> (f64, Moments) {
+    merged_within(world, senders, passes, 1.0)
+}
+
+/// The same with a radius as of pixels so many times as wide.
+fn merged_within(world: &World, senders: &Senders<'_>, passes: u32, scale: f32) -> (f64, Moments) {
     let (view, mut stats) = (view(), Stats::default());
     let settings = RenderSettings { seed: 11, ..RenderSettings::default() };
-    let mut pilot = Pilot { world, view: &view, settings, size: [SIZE; 2], scale: 1.0, stats: &mut stats };
+    let mut pilot = Pilot { world, view: &view, settings, size: [SIZE; 2], scale, stats: &mut stats };
     let (mut found, mut means) = (0, Moments::new());
     for pass in 0..passes {
         let picture = pilot.take(senders, pass);
@@ -136,19 +141,25 @@ fn broad_photons_are_left_away_where_they_bring_nothing() {
     assert_eq!(broad(&plain), 0);
     // A lamp that shines at a wall nearby: most light comes from a small bright spot.
     let mut spot = SceneKit::new();
-    let (x, y, z) = (DVec3::X, DVec3::Y, DVec3::Z);
     spot.matte("matte", 0.8);
-    for (name, center, half_u, half_v) in [
-        ("left", -x, y, z),
-        ("right", x, y, z),
-        ("back", -z, x, y),
-        ("front", z, x, y),
-        ("floor", -y, x, z),
-        ("ceiling", y, x, z),
-    ] {
-        spot.surface(name, rectangle(center, half_u, half_v), "matte");
-    }
-    spot.lamp("lamp", rectangle(DVec3::new(0.0, 0.95, 0.0), x * 0.03, -z * 0.03), 100.0);
+    walls(&mut spot);
+    spot.lamp("lamp", rectangle(DVec3::new(0.0, 0.95, 0.0), DVec3::X * 0.03, -DVec3::Z * 0.03), 100.0);
     spot.camera(DVec3::new(0.0, 0.0, 0.9), DVec3::ZERO);
     assert!(broad(&spot) > 0);
+}
+
+#[test]
+fn corners_are_not_dark() {
+    // The foot of a wall, which the bright floor lights: the disc that photons are gathered from is wider than what is seen.
+    let mut kit = SceneKit::new();
+    kit.matte("matte", 0.5);
+    walls(&mut kit);
+    kit.lamp("lamp", rectangle(DVec3::Y * -0.5, DVec3::X * 0.3, DVec3::Z * 0.3), 10.0);
+    kit.camera(DVec3::new(0.0, -0.935, -0.8), DVec3::new(0.0, -0.935, -1.0));
+    let world = kit.world();
+    let senders = Senders::new(&world, &view(), Techniques::default());
+    let (_, wide) = merged_within(&world, &senders, 40, 8.0);
+    let (_, narrow) = merged_within(&world, &senders, 100, 0.1);
+    // The disc's blur up the wall stays; the floor's photons on the wall would take away a ninth.
+    assert!((wide.mean() / narrow.mean() - 1.0).abs() < 0.04, "{} and {}", wide.mean(), narrow.mean());
 }
