@@ -120,7 +120,7 @@ fn render(
     outcome
 }
 
-/// Rays among which one that loses track of its medium is rounding's doing: at an edge two faces swap.
+/// Rays among which one that loses track of its medium is rounding's doing, and harmless: at an edge two faces swap.
 const RAYS_PER_ROUNDING: u64 = 1_000_000;
 
 /// Warns of what should not have happened while rendering.
@@ -128,13 +128,11 @@ fn tell_faults(outcome: &Outcome, world: &World, warnings: &mut Warnings) {
     for (&object, count) in &outcome.stats.never_entered {
         let name = world.object_names.get(object as usize).map_or("without a name", String::as_str);
         let rays = outcome.stats.rays;
-        let cause = if count.saturating_mul(RAYS_PER_ROUNDING) < rays {
-            "rounding at an edge, harmless"
-        } else {
-            "is it closed, and the camera in the medium it seems to be in?"
-        };
+        if count.saturating_mul(RAYS_PER_ROUNDING) < rays {
+            continue;
+        }
         warnings.tell(format!(
-            "boundary left that was never entered: object {name}, {count} of {rays} rays; {cause}"
+            "boundary left that was never entered: object {name}, {count} of {rays} rays; is it closed, and the camera in the medium it seems to be in?"
         ));
     }
     match outcome.film.nonfinite() {

@@ -1,5 +1,5 @@
-//! Path tracing: one path per pixel and pass, light sampling, BSDF sampling and aim combined by MIS; see `eye` for the
-//! steps.
+//! Path tracing: one path per pixel and pass; light sampling, BSDF sampling and aim at what throws caustics combined by
+//! MIS. See `eye` for the steps.
 
 use super::eye::aim::Aim;
 use super::eye::tally::Tally;
@@ -28,10 +28,14 @@ impl Integrator for PathIntegrator {
         world: &'w World,
         view: &View,
         settings: &RenderSettings,
-        _cancel: &AtomicBool,
-        _stats: &mut Stats,
+        cancel: &AtomicBool,
+        stats: &mut Stats,
     ) -> Box<dyn Prepared + 'w> {
-        Box::new(Paths { world, view: *view, settings: *settings, aim: Aim::new(world) })
+        let mut aim = Aim::new(world);
+        if settings.techniques.guiding {
+            aim = aim.taught(world, view.width * view.height, settings, cancel, stats);
+        }
+        Box::new(Paths { world, view: *view, settings: *settings, aim })
     }
 }
 

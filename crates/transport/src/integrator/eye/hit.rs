@@ -45,8 +45,9 @@ impl Eye<'_> {
             let light = self.world.lights.get(index);
             self.world.lights.direct().probability(index) * light.pdf_direct(p, path.ray.direction, hit) / pdf
         });
+        let aimed = if path.crossings > 0 { path.rival } else { 0.0 };
         let merging = self.merging(path, index, hit.map(|hit| hit.ng));
-        weight::share(techniques.hits, sampling * sampling + merging)
+        weight::share(techniques.hits, sampling * sampling + aimed * aimed + merging)
     }
 
     /// Squared densities of all ways to merge over that of hitting the light that the path has come to.

@@ -3,12 +3,14 @@
 //! 1. Walk to the next surface or, in a medium that scatters, to the next particle; what lies between is filtered by the
 //!    medium the path is in.
 //! 2. If the surface shines, add its light, weighed against the other ways to find it.
-//! 3. If the vertex is not singular, gather the photons about it, sample a light, and add what reaches the vertex.
-//! 4. Go on in a direction drawn from the BSDF or phase function, or aimed (`aim`). Singular crossings are free: there is
-//!    no limit on them. At the first polished surfaces both ways are gone (`split`).
+//! 3. If the vertex is not singular, gather the photons about it, sample a light, and add what reaches the vertex. Without
+//!    photons, ask for light over polished surfaces, too (`aimed`).
+//! 4. Go on in a direction drawn from the BSDF or phase function. Singular crossings are free: there is no limit on them.
+//!    Where photons bring the caustics, both ways are gone at the first polished surfaces (`split`).
 //! 5. Weak paths end by roulette on their throughput without the n² factor, so none dies for being inside glass.
 
 pub(super) mod aim;
+mod aimed;
 mod along;
 mod hit;
 pub(super) mod merges;
@@ -41,9 +43,6 @@ use merges::Merges;
 use split::Arrived;
 use tally::Tally;
 
-/// Scatterings of a path that are aimed, at most.
-const AIMED_BOUNCES: u32 = 2;
-
 /// What paths have in common.
 pub(super) struct Eye<'a> {
     pub(super) world: &'a World,
@@ -71,6 +70,8 @@ struct Path {
     index_scale: f32,
     last: LastScatter,
     merges: Merges,
+    /// Density of the other way that has led from the last wide vertex to the light, over that of this one: see `aimed`.
+    rival: f32,
     /// Which items the next ray sees.
     visible: u8,
     /// Scatterings so far, singular ones not counted.
@@ -98,7 +99,9 @@ impl Eye<'_> {
     }
 
     fn estimate(&self, path: Path, draws: &mut Draws<'_>, first: &mut Option<&mut PixelSample>) -> Spectrum {
-        if !self.settings.techniques.splitting || !self.world.lights.any_can_be_met() {
+        // Where no photons bring the caustics, their noise is larger than that of highlights, and more paths do more for both.
+        let splits = self.settings.techniques.splitting && self.aim.is_none();
+        if !splits || !self.world.lights.any_can_be_met() {
             return self.follow(path, draws, first);
         }
         let (light, arrived) = self.over_polished(path, draws, first);
@@ -163,6 +166,7 @@ impl Eye<'_> {
             index_scale: 1.0,
             last: LastScatter::default(),
             merges: Merges::default(),
+            rival: 0.0,
             visible: mask::CAMERA,
             bounces: 0,
             crossings: 0,
@@ -201,11 +205,6 @@ impl Eye<'_> {
             walk::fly_watched(self.world, ray, *visible, set, *throughput, sampler, stats, watch);
         path.light += path.throughput * emitted + carried * gathered;
         flown
-    }
-
-    /// What the path aims at. Each aimed choice may double its weight, so that only the first ones do.
-    fn aim_of(&self, path: &Path) -> Option<&Aim> {
-        self.aim.filter(|_| path.bounces < AIMED_BOUNCES)
     }
 
     /// Whether the path may scatter once more and still be counted.

@@ -1,6 +1,5 @@
 //! What a path does at a particle of a medium.
 
-use super::aim::{Choice, Cones};
 use super::merges::{Beyond, Passed, Place};
 use super::radius::GatherRadius;
 use super::tally::Tally;
@@ -20,7 +19,7 @@ impl Eye<'_> {
     pub(super) fn at_place(&self, path: &mut Path, place: &VolumeVertex, draws: &mut Draws<'_>) -> bool {
         let wo = -path.ray.direction;
         path.throughput *= place.weight;
-        let aim = self.aim_of(path).and_then(|aim| aim.at_place(place.p));
+        let aim = self.aim.and_then(|aim| aim.at_place(place.p));
         if self.may_bounce(path) {
             let medium = &self.world.media[place.medium.index()];
             if let Some(photons) = &self.photons
@@ -28,22 +27,16 @@ impl Eye<'_> {
             {
                 path.light += self.gather_in_volume(path, place, wo, photons, &mut draws.tally);
             }
-            path.light +=
-                path.throughput * self.sampled_light_in_volume(path, place, wo, aim.as_ref(), draws);
+            path.light += path.throughput * self.sampled_light_in_volume(path, place, wo, draws);
+            if let Some(cones) = &aim {
+                path.light += self.aimed_light_in_volume(path, place, wo, cones, draws);
+            }
         }
         let phase = in_volume::phase_at(self.world, place);
-        let u = draws.sampler.next_2d();
-        let choice = aim.as_ref().map(|cones| cones.choose(draws.sampler.next_1d(), u));
-        let wi = match choice {
-            Some(Choice::Aimed(wi)) => wi,
-            Some(Choice::Free(_)) | None => phase.sample(wo, u),
-        };
-        let value = phase.value(wo, wi);
-        let pdf = aim.as_ref().map_or(value, |cones| cones.density(value, wi));
-        if aim.is_some() {
-            path.throughput *= value / pdf;
-        }
+        let wi = phase.sample(wo, draws.sampler.next_2d());
+        let pdf = phase.value(wo, wi);
         self.turn_at_place(path, place, wi, pdf);
+        path.rival = aim.map_or(0.0, |cones| cones.pdf(wi) / pdf);
         self.survives(path, draws)
     }
 
@@ -53,7 +46,7 @@ impl Eye<'_> {
     pub(super) fn turn_at_place(&self, path: &mut Path, place: &VolumeVertex, wi: Vec3, pdf: f32) {
         let wo = -path.ray.direction;
         path.bounces += 1;
-        path.crossings = 0;
+        (path.crossings, path.rival) = (0, 0.0);
         path.last = LastScatter { sampled: Some((place.p, pdf)), is_covered: false };
         if let Some(photons) = &self.photons {
             let own = volume_factor(self.world, place, &photons.radius, [wo, wi]) / pdf;
@@ -105,12 +98,10 @@ impl Eye<'_> {
         path: &Path,
         place: &VolumeVertex,
         wo: Vec3,
-        aim: Option<&Cones>,
         draws: &mut Draws<'_>,
     ) -> Spectrum {
         let weight = |choice: &LightChoice, sample: &DirectSample, phase: f32| {
-            let pdf = aim.map_or(phase, |cones| cones.density(phase, sample.wi));
-            self.sample_weight_in_volume(path, place, wo, choice, sample, [phase, pdf])
+            self.sample_weight_in_volume(path, place, wo, choice, sample, phase)
         };
         let VolumeVertex { p, medium, .. } = *place;
         let place = VolumeLight { world: self.world, p, medium, wo, set: &path.set };
@@ -119,7 +110,7 @@ impl Eye<'_> {
 
     /// What sampling a light counts beside hitting it and merging.
     ///
-    /// - `phase`: value of the phase function toward the light, sr⁻¹; and the density with which the path goes on there.
+    /// - `phase`: value of the phase function toward the light, sr⁻¹.
     pub(super) fn sample_weight_in_volume(
         &self,
         path: &Path,
@@ -127,12 +118,12 @@ impl Eye<'_> {
         wo: Vec3,
         choice: &LightChoice,
         sample: &DirectSample,
-        [phase, pdf]: [f32; 2],
+        phase: f32,
     ) -> f32 {
         let techniques = self.settings.techniques;
         let density = sample.pdf_w * choice.probability;
         let across = phase / density;
-        let hitting = if techniques.hits && !sample.is_delta { pdf / density } else { 0.0 };
+        let hitting = if techniques.hits && !sample.is_delta { phase / density } else { 0.0 };
         let merging = self.photons.as_ref().map_or(0.0, |photons| {
             let light =
                 photons.senders.of(false).density_of_sample(self.world, choice.index, sample, &path.set);

@@ -1,6 +1,5 @@
 //! What a path does at a surface.
 
-use super::aim::Cones;
 use super::merges::{Beyond, Passed, Place};
 use super::radius::INDIRECT;
 use super::weight::{self, Side};
@@ -22,20 +21,24 @@ impl Eye<'_> {
         let wo = -path.ray.direction;
         let is_delta = vertex.bsdf.is_delta();
         let is_wide = !is_specular(&vertex.bsdf);
-        let aim = self.aim_of(path).filter(|_| is_wide).and_then(|aim| aim.at_surface(vertex, wo));
+        let aim = self.aim.filter(|_| is_wide).and_then(|aim| aim.at_surface(vertex, wo));
         if !is_delta && self.may_bounce(path) {
             if let Some(photons) = &self.photons {
                 path.light += self.gather(path, vertex, wo, photons, draws);
             }
-            path.light += path.throughput * self.sampled_light(path, vertex, wo, aim.as_ref(), draws);
+            path.light += path.throughput * self.sampled_light(path, vertex, wo, draws);
+            if let Some(cones) = &aim {
+                path.light += self.aimed_light(path, vertex, wo, cones, draws);
+            }
         }
         let (u_lobe, u) = (draws.sampler.next_1d(), draws.sampler.next_2d());
-        let scattered = match &aim {
-            Some(cones) => cones.scatter(vertex, wo, u_lobe, u),
-            None => vertex.bsdf.sample(wo, u_lobe, u, Transport::Radiance),
-        };
-        let Some(scattered) = scattered else { return false };
+        let Some(scattered) = vertex.bsdf.sample(wo, u_lobe, u, Transport::Radiance) else { return false };
         self.turn(path, vertex, &scattered);
+        if !is_delta {
+            // What a coat mirrors is asked for neither here nor from the vertex before.
+            let cones = aim.filter(|_| !scattered.is_delta);
+            path.rival = cones.map_or(0.0, |cones| cones.pdf(scattered.wi) / scattered.pdf);
+        }
         !path.throughput.is_zero() && self.survives(path, draws)
     }
 
@@ -53,7 +56,7 @@ impl Eye<'_> {
             path.merges.pass_singular();
         } else {
             path.bounces += 1;
-            path.crossings = 0;
+            (path.crossings, path.rival) = (0, 0.0);
             self.note_merge(path, vertex, scattered, ior_before);
         }
         path.ray = vertex.leave(scattered.wi, path.ray.time);
@@ -120,14 +123,7 @@ impl Eye<'_> {
     }
 
     /// Light of one light, chosen at random, by a shadow ray.
-    fn sampled_light(
-        &self,
-        path: &Path,
-        vertex: &Vertex,
-        wo: Vec3,
-        aim: Option<&Cones>,
-        draws: &mut Draws<'_>,
-    ) -> Spectrum {
+    fn sampled_light(&self, path: &Path, vertex: &Vertex, wo: Vec3, draws: &mut Draws<'_>) -> Spectrum {
         let (u_choice, u) = (draws.sampler.next_1d(), draws.sampler.next_2d());
         let Some(choice) = self.world.lights.direct().sample(u_choice) else { return Spectrum::ZERO };
         let Some(sample) = self.world.lights.get(choice.index).sample_direct(vertex.hit.p, u) else {
@@ -141,7 +137,6 @@ impl Eye<'_> {
         let far = crosses(vertex, wo, sample.wi).then(|| vertex.far_set(self.world, &path.set));
         let set = far.as_ref().unwrap_or(&path.set);
         let density = sample.pdf_w * choice.probability;
-        let pdf = aim.map_or(pdf, |cones| cones.density(pdf, sample.wi));
         let weight = self.sample_weight(path, vertex, wo, pdf, &choice, &sample, set);
         let ray = shadow::ray_to_light(&vertex.hit, &sample, 0.0);
         let way = shadow::straight_way(self.world, &ray, set, draws.stats);

@@ -11,8 +11,8 @@ pub(super) const MOST_OBJECTS: usize = 8;
 /// A ball about something.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Ball {
-    center: Vec3,
-    radius: f32,
+    pub(super) center: Vec3,
+    pub(super) radius: f32,
 }
 
 /// A ball as it is seen from a point.

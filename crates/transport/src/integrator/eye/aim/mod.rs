@@ -1,28 +1,30 @@
-//! Where light may come from over polished surfaces: directions that a wide surface tries beside those of its finish.
+//! Where light may come from over polished surfaces: directions in which a wide surface asks for it (`aimed`).
 //!
 //! A path finds the light of a caustic only if it leaves a wide surface just so that polished ones lead it to a lamp; drawn
-//! from the finish, few directions do. So some are drawn from cones instead:
+//! from the finish, few directions do. So the surface asks in directions of its own, drawn from cones:
 //!
-//! - about each polished object that looks small;
-//! - about each lamp that a polished object may stand before: nested cones, for glass may bend the way a little or much.
-//!
-//! Both ways share their directions by MIS: one of the two is chosen at random, and its direction counts by the density of
-//! the mixture. Source: Veach, Robust Monte Carlo Methods for Light Transport Simulation, 1997, §9.2.4 (one-sample
-//! model, balance heuristic).
+//! - about the places on polished objects that photons have come from to just about here (`learned`);
+//! - where none have, and in media: about each polished object that looks small, and about each lamp that one may stand
+//!   before; those are nested, for glass may bend the way a little or much.
 
 mod ball;
 mod cones;
+mod learned;
 
-pub(super) use cones::{Choice, Cones};
+pub(super) use cones::Cones;
 
+use crate::RenderSettings;
+use crate::stats::Stats;
 use crate::walk::Vertex;
 use ball::{Ball, MOST_OBJECTS, View, ball_about, merged, versine_of};
 use hyaline_math::Vec3;
 use hyaline_world::World;
+use learned::{LEAST_CHANCE, Learned};
 use smallvec::SmallVec;
+use std::sync::atomic::AtomicBool;
 
-/// Share of the directions that are aimed, where there is something to aim at.
-const AIMED: f32 = 0.5;
+/// Share of each polished object as a whole, over that of all places that photons have come from.
+const ANYWHERE: f32 = 0.2;
 /// Lamps, at most: the strongest.
 const MOST_LAMPS: usize = 4;
 /// Versine of the widest cone about an object that is worth it: wider ones are no better than a matte finish.
@@ -38,6 +40,9 @@ pub(in crate::integrator) struct Aim {
     objects: Vec<Ball>,
     /// Lamps and the chance of each.
     lamps: Vec<(Ball, f32)>,
+    learned: Learned,
+    /// Chance of asking where no photons are known to have landed.
+    chance: f32,
 }
 
 impl Aim {
@@ -54,7 +59,22 @@ impl Aim {
             .collect();
         lamps.sort_by(|a, b| b.1.total_cmp(&a.1));
         lamps.truncate(MOST_LAMPS);
-        Self { objects, lamps }
+        Self { objects, lamps, learned: Learned::default(), chance: 1.0 }
+    }
+
+    /// With what photons show, which are traced for it.
+    ///
+    /// - `pixels`: of the picture.
+    pub(in crate::integrator) fn taught(
+        self,
+        world: &World,
+        pixels: u32,
+        settings: &RenderSettings,
+        cancel: &AtomicBool,
+        stats: &mut Stats,
+    ) -> Self {
+        let learned = Learned::new(world, pixels, settings, cancel, stats);
+        Self { learned, chance: LEAST_CHANCE, ..self }
     }
 
     /// The cones that a surface tries; `None` where aim would not help.
@@ -65,17 +85,39 @@ impl Aim {
             return None;
         }
         let n = if wo.dot(vertex.hit.ng) < 0.0 { -vertex.hit.ng } else { vertex.hit.ng };
-        self.cones(vertex.hit.p, |view| view.rises_over(n))
+        let p = vertex.hit.p;
+        self.learned_cones(p, n).or_else(|| self.cones(p, self.chance, |view| view.rises_over(n)))
+    }
+
+    /// Toward where photons have come from, and now and then anywhere on polished objects: few photons don't show
+    /// all ways.
+    fn learned_cones(&self, p: Vec3, n: Vec3) -> Option<Cones> {
+        let (sources, chance) = self.learned.at(p);
+        let mut cones = Cones::new(chance);
+        for source in sources {
+            let view = View::new(&source.ball, p);
+            if view.rises_over(n) {
+                cones.push(view.axis, view.versine(), source.share);
+            }
+        }
+        if cones.total == 0.0 {
+            return None;
+        }
+        let views = self.objects.iter().map(|ball| View::new(ball, p)).filter(|view| view.rises_over(n));
+        for view in views {
+            cones.push(view.axis, view.versine(), ANYWHERE);
+        }
+        Some(cones)
     }
 
     /// The cones that a particle of a medium tries.
     pub(super) fn at_place(&self, p: Vec3) -> Option<Cones> {
-        self.cones(p, |_| true)
+        self.cones(p, 1.0, |_| true)
     }
 
-    /// - `faces`: what can be reached.
-    fn cones(&self, p: Vec3, faces: impl Fn(&View) -> bool) -> Option<Cones> {
-        let mut cones = Cones::default();
+    /// - `chance`: of asking; `faces`: what can be reached.
+    fn cones(&self, p: Vec3, chance: f32, faces: impl Fn(&View) -> bool) -> Option<Cones> {
+        let mut cones = Cones::new(chance);
         let views: SmallVec<[View; MOST_OBJECTS]> =
             self.objects.iter().map(|ball| View::new(ball, p)).filter(&faces).collect();
         if views.is_empty() {

@@ -240,7 +240,7 @@ impl Replay<'_> {
     fn sample_in_fog(&self, path: &Path, place: &VolumeVertex, wo: Vec3) -> Option<f32> {
         let (choice, sample) = self.light_sample(place.p)?;
         let phase = self.eye.world.media[place.medium.index()].phase.value(wo, sample.wi);
-        Some(self.eye.sample_weight_in_volume(path, place, wo, &choice, &sample, [phase; 2]))
+        Some(self.eye.sample_weight_in_volume(path, place, wo, &choice, &sample, phase))
     }
 
     /// The sample that light sampling would have made of the photon's start.
