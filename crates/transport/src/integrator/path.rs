@@ -31,10 +31,7 @@ impl Integrator for PathIntegrator {
         cancel: &AtomicBool,
         stats: &mut Stats,
     ) -> Box<dyn Prepared + 'w> {
-        let mut aim = Aim::new(world);
-        if settings.techniques.guiding {
-            aim = aim.taught(world, view.width * view.height, settings, cancel, stats);
-        }
+        let aim = Aim::taught(world, view.width * view.height, settings, cancel, stats);
         Box::new(Paths { world, view: *view, settings: *settings, aim })
     }
 }

@@ -18,6 +18,8 @@ const LIFT: f32 = 0.5;
 const BEYOND: f32 = 1.5;
 /// Tries, at most: a little dark is left in corners of less than a quarter of the disc.
 const MOST_TRIES: u32 = 8;
+/// Polished surfaces that a try looks through, at most.
+const MOST_HIDING: u32 = 6;
 
 /// A normal, rough enough to be small: good for telling walls from floors.
 #[derive(Clone, Copy, Debug)]
@@ -53,11 +55,20 @@ pub(super) fn disc_over_part(
         let at = warp::sample_disc(draws.sampler.next_2d()) * radius;
         let to = p + frame.to_world(Vec3::new(at.x, at.y, 0.0));
         let way = to - from;
-        let ray = Ray { t_max: BEYOND * way.length(), ..Ray::new(from, way.normalize()) };
-        draws.stats.rays += 1;
-        let Some(candidate) = world.geometry.closest(&ray, mask::PATH) else { return false };
-        let hit = world.geometry.surface(&ray, &candidate);
-        hit.ng.dot(ng).abs() > FLAT
+        let mut ray = Ray { t_max: BEYOND * way.length(), ..Ray::new(from, way.normalize()) };
+        // Polished surfaces hide nothing: photons land in front of them and behind.
+        for _ in 0..MOST_HIDING {
+            draws.stats.rays += 1;
+            let Some(candidate) = world.geometry.closest(&ray, mask::PATH) else { return false };
+            if world.geometry.surface(&ray, &candidate).ng.dot(ng).abs() > FLAT {
+                return true;
+            }
+            if !world.is_specular_face(candidate.item, candidate.primitive) {
+                return false;
+            }
+            ray.t_min = candidate.t.next_up();
+        }
+        false
     };
     (1..MOST_TRIES).find(|_| lies_on_it(draws)).unwrap_or(MOST_TRIES) as f32
 }

@@ -213,7 +213,7 @@ pub(super) struct Gather<'a> {
 impl Gather<'_> {
     /// What they bring to the picture.
     fn light(&self, landed: &Landed, draws: &mut Draws<'_>) -> Spectrum {
-        let Self { eye, vertex, wo, radius, .. } = *self;
+        let Self { eye, path, vertex, wo, radius, .. } = *self;
         let mut reaches_over = false;
         let light = landed.on_surface(self.is_indirect, vertex.hit.p, radius, |photon| {
             if !photon.n.is_one_surface(vertex.hit.ng) {
@@ -224,7 +224,8 @@ impl Gather<'_> {
             draws.tally.note(photon.id, light);
             light
         });
-        if reaches_over && !light.is_zero() {
+        // Where the camera looks, also over edges with nothing beyond them; farther along nobody would see the difference.
+        if (reaches_over || path.bounces == 0) && !light.is_zero() {
             return light * reach::disc_over_part(eye.world, vertex, wo, radius, draws);
         }
         light

@@ -55,14 +55,15 @@ impl Integrator for MergingIntegrator {
         world: &'w World,
         view: &View,
         settings: &RenderSettings,
-        _cancel: &AtomicBool,
+        cancel: &AtomicBool,
         stats: &mut Stats,
     ) -> Box<dyn Prepared + 'w> {
         let mut senders = Senders::new(world, view, settings.techniques);
         if senders.any() {
             pilot::teach(world, view, settings, &mut senders, stats);
         }
-        let aim = (!senders.any()).then(|| Aim::new(world));
+        let pixels = view.width * view.height;
+        let aim = (!senders.any()).then(|| Aim::taught(world, pixels, settings, cancel, stats));
         Box::new(Merging { world, view: *view, settings: *settings, senders, aim })
     }
 }

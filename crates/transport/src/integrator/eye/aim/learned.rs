@@ -22,7 +22,7 @@ use std::sync::atomic::AtomicBool;
 /// Photons that are sent out for each pixel.
 const PHOTONS_PER_PIXEL: u32 = 4;
 /// Photons that are sent out, at least and at most.
-const PHOTONS: [u32; 2] = [1 << 18, 1 << 20];
+const PHOTONS: [u32; 2] = [1 << 17, 1 << 19];
 /// Photons of a cell, at most.
 const CELL: usize = 128;
 /// Things to aim at from a cell, at most.
@@ -139,6 +139,11 @@ impl Learned {
             };
         }
         Self { nodes, cells }
+    }
+
+    /// Whether no photons have landed anywhere.
+    pub(super) fn is_empty(&self) -> bool {
+        self.cells.is_empty()
     }
 
     /// What to aim at from a place, and the chance with which to ask for it; nothing where no photons landed about it.

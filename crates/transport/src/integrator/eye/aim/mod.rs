@@ -62,19 +62,22 @@ impl Aim {
         Self { objects, lamps, learned: Learned::default(), chance: 1.0 }
     }
 
-    /// With what photons show, which are traced for it.
+    /// The same with what photons show, which are traced for it, unless the settings say not to.
     ///
     /// - `pixels`: of the picture.
     pub(in crate::integrator) fn taught(
-        self,
         world: &World,
         pixels: u32,
         settings: &RenderSettings,
         cancel: &AtomicBool,
         stats: &mut Stats,
     ) -> Self {
+        let aim = Self::new(world);
+        if !settings.techniques.guiding {
+            return aim;
+        }
         let learned = Learned::new(world, pixels, settings, cancel, stats);
-        Self { learned, chance: LEAST_CHANCE, ..self }
+        Self { chance: if learned.is_empty() { 1.0 } else { LEAST_CHANCE }, learned, ..aim }
     }
 
     /// The cones that a surface tries; `None` where aim would not help.
