@@ -36,7 +36,7 @@ impl Eye<'_> {
         let scattered = BsdfSample { wi, weight, pdf, is_delta: false, transmits: false, eta_scale: 1.0 };
         self.turn(&mut second, vertex, &scattered);
         second.index_scale *= weight.max_lane(self.world.lanes);
-        second.rival = drawn / pdf;
+        second.rival = self.hits_over_aimed(drawn, pdf);
         self.over_polished_to_light(second, draws)
     }
 
@@ -61,7 +61,7 @@ impl Eye<'_> {
         second.throughput *= weight;
         self.turn_at_place(&mut second, place, wi, pdf);
         second.index_scale *= weight;
-        second.rival = weight;
+        second.rival = self.hits_over_aimed(drawn, pdf);
         self.over_polished_to_light(second, draws)
     }
 
@@ -69,6 +69,11 @@ impl Eye<'_> {
     /// falls by there is to be left out of roulette, as the n² factors are.
     fn second(&self, path: &Path) -> Path {
         Path { light: Spectrum::ZERO, ..path.clone() }
+    }
+
+    /// Density of the path's own way over that of the aimed one; 0 where what paths come to does not count.
+    fn hits_over_aimed(&self, drawn: f32, pdf: f32) -> f32 {
+        if self.settings.techniques.hits { drawn / pdf } else { 0.0 }
     }
 
     /// Light that a path comes to over polished surfaces, one of them at least.

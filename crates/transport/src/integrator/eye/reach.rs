@@ -1,4 +1,4 @@
-//! Where two surfaces meet, a disc about a place on one reaches over the edge: what of it lies on the surface.
+//! Where two surfaces meet, or one ends, a disc about a place reaches over the edge: what of it lies on the surface.
 //!
 //! Photons on the other surface have seen other light and are left out. So the disc is smaller than it was taken for, by a
 //! factor that random tries tell: the mean number of points that are drawn until one lies on the surface is the whole disc
