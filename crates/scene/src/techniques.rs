@@ -12,13 +12,13 @@ pub struct Techniques {
     pub hits: bool,
     /// Shadow rays to places on lights.
     pub sampling: bool,
-    /// Photons, which `merging` alone has; none is sent where this is off.
+    /// Photons that are merged, in `merging` alone; none is sent for it where this is off.
     pub merging: bool,
-    /// Both ways are gone at the first polished surfaces.
+    /// Both ways are gone at the first polished surfaces, in `merging` alone.
     pub splitting: bool,
     /// Photons are aimed at what is polished, by projection maps.
     pub projection: bool,
-    /// Photons are sent where light has been found before.
+    /// Photons are sent where light has been found before; `path` asks for light where photons have come from.
     pub guiding: bool,
     /// Photons that are aimed at nothing, where they pay.
     pub broad: bool,

@@ -23,9 +23,7 @@ impl Eye<'_> {
         cones: &Cones,
         draws: &mut Draws<'_>,
     ) -> Spectrum {
-        let Some(wi) = cones.sample(draws.sampler.next_1d(), draws.sampler.next_2d()) else {
-            return Spectrum::ZERO;
-        };
+        let Some(wi) = aimed_direction(cones, draws) else { return Spectrum::ZERO };
         let (f, drawn) = vertex.bsdf.eval_with_pdf(wo, wi, Transport::Radiance);
         let pdf = cones.pdf(wi);
         let weight = f / pdf;
@@ -49,9 +47,7 @@ impl Eye<'_> {
         cones: &Cones,
         draws: &mut Draws<'_>,
     ) -> Spectrum {
-        let Some(wi) = cones.sample(draws.sampler.next_1d(), draws.sampler.next_2d()) else {
-            return Spectrum::ZERO;
-        };
+        let Some(wi) = aimed_direction(cones, draws) else { return Spectrum::ZERO };
         let (drawn, pdf) = (in_volume::phase_at(self.world, place).value(wo, wi), cones.pdf(wi));
         let weight = drawn / pdf;
         if !weight.is_finite() || weight == 0.0 {
@@ -93,4 +89,8 @@ impl Eye<'_> {
             }
         }
     }
+}
+
+fn aimed_direction(cones: &Cones, draws: &mut Draws<'_>) -> Option<Vec3> {
+    cones.sample(draws.sampler.next_1d(), draws.sampler.next_2d())
 }

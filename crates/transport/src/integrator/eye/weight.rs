@@ -4,6 +4,7 @@
 //!
 //! - hitting the light: all directions are drawn from the eye's side;
 //! - sampling the light at the last vertex, where that is not singular;
+//! - asking for it over polished surfaces at the last vertex before them, where no photons are about (`aimed`);
 //! - merging at any vertex that is not singular and not the last one: a photon, which has drawn all directions from the
 //!   light's side, lands within the gather radius of it.
 //!

@@ -39,7 +39,7 @@ pub(super) use landed::{Landed, LandedPhoton, PhotonId};
 pub(super) use light::Light;
 #[cfg(test)]
 pub(super) use light::Photon;
-pub(super) use sender::{BEAM_SHARE, Senders};
+pub(super) use sender::{BEAM_SHARE, PROJECTION_CELLS, Senders};
 use std::sync::atomic::AtomicBool;
 
 /// Path tracing and photon merging.

@@ -16,7 +16,7 @@ use hyaline_world::World;
 use hyaline_world::light::DirectSample;
 
 /// Cells of the projection maps along each axis.
-const PROJECTION_CELLS: u32 = 64;
+pub(in crate::integrator) const PROJECTION_CELLS: u32 = 64;
 
 /// One photon in so many leaves beams in homogeneous media; a beam is found by many more paths than a point.
 const PHOTONS_PER_BEAM: u32 = 64;

@@ -11,6 +11,7 @@
 
 use super::ball::Ball;
 use crate::RenderSettings;
+use crate::integrator::merging::PROJECTION_CELLS;
 use crate::photon::{MapKind, PhotonEmitter, PhotonTracer};
 use crate::stats::Stats;
 use hyaline_math::{Bounds, Ray, Vec3};
@@ -39,8 +40,6 @@ const STEP: f32 = 1e-5;
 pub(super) const LEAST_CHANCE: f32 = 0.1;
 /// Chance of asking over the irradiance of the cell, as a multiple of that of all cells together.
 const EAGERNESS: f32 = 2.0;
-/// Cells of the projection maps along each axis.
-const PROJECTION_CELLS: u32 = 64;
 
 /// A photon's last straight way.
 #[derive(Clone, Copy, Debug)]
