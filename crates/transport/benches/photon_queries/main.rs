@@ -32,6 +32,10 @@ fn main() {
         return;
     }
     let mut criterion = Criterion::default().without_plots().sample_size(10);
+    let is_filter = |arg: &String| !arg.starts_with('-') && arg.parse::<usize>().is_err();
+    if let Some(filter) = std::env::args().skip(1).find(is_filter) {
+        criterion = criterion.with_filter(filter);
+    }
     for question in &questions {
         let mut group = criterion.benchmark_group(&question.name);
         for (order, places) in [("along pixels", &rivals.along_pixels), ("scattered", &rivals.scattered)] {
