@@ -55,8 +55,19 @@ fn merged(world: &World, senders: &Senders<'_>, passes: u32) -> (f64, Moments) {
 
 /// The same with a radius as of pixels so many times as wide.
 fn merged_within(world: &World, senders: &Senders<'_>, passes: u32, scale: f32) -> (f64, Moments) {
+    merged_by(Techniques::default(), world, senders, passes, scale)
+}
+
+/// The same with some techniques.
+fn merged_by(
+    techniques: Techniques,
+    world: &World,
+    senders: &Senders<'_>,
+    passes: u32,
+    scale: f32,
+) -> (f64, Moments) {
     let (view, mut stats) = (view(), Stats::default());
-    let settings = RenderSettings { seed: 11, ..RenderSettings::default() };
+    let settings = RenderSettings { seed: 11, techniques, ..RenderSettings::default() };
     let mut pilot = Pilot { world, view: &view, settings, size: [SIZE; 2], scale, stats: &mut stats };
     let (mut found, mut means) = (0, Moments::new());
     for pass in 0..passes {
@@ -162,4 +173,22 @@ fn corners_are_not_dark() {
     let (_, narrow) = merged_within(&world, &senders, 100, 0.1);
     // The disc's blur up the wall stays; the floor's photons on the wall would take away a ninth.
     assert!((wide.mean() / narrow.mean() - 1.0).abs() < 0.04, "{} and {}", wide.mean(), narrow.mean());
+}
+
+#[test]
+fn open_edges_are_not_dark() {
+    // A plate in a ball of thin glass under an even sky, seen along its edge: nothing lies beyond that could tell that the
+    // disc reaches over. Photons alone bring the light, and it is even.
+    let (ior, albedo) = (1.05, 0.5);
+    let mut kit = SceneKit::new();
+    kit.medium("thin glass", ior).matte("matte", albedo).sky(1.0);
+    kit.solid("ball", sphere(DVec3::ZERO, 0.5), "thin glass");
+    kit.surface("plate", rectangle(DVec3::ZERO, DVec3::X * 0.2, DVec3::Z * 0.2), "matte");
+    kit.camera(DVec3::new(0.165, -0.1, 0.0), DVec3::X * 0.165);
+    let world = kit.world();
+    let techniques = Techniques { hits: false, ..Techniques::default() };
+    let senders = Senders::new(&world, &view(), techniques);
+    let (_, wide) = merged_by(techniques, &world, &senders, 400, 16.0);
+    let expected = f64::from(albedo) * ior * ior;
+    assert!((wide.mean() / expected - 1.0).abs() < 0.02, "{} is not {expected}", wide.mean());
 }
