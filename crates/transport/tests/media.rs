@@ -71,6 +71,18 @@ fn bodies_of_albedo_one_are_invisible_in_a_uniform_environment() {
 }
 
 #[test]
+fn paths_that_find_out_of_dense_milk_late_are_no_specks() {
+    // Light scatters a hundred times on the mean, and thousands now and then; all that loses nothing brings back 1.
+    let mut kit = SceneKit::new();
+    volume(&mut kit, "milk", 1.333, [0.0; 3], [80.0; 3], 0.0);
+    kit.solid("ball", sphere(DVec3::ZERO, 0.9), "milk");
+    let moments = furnace(&kit, 20_000);
+    let variance = moments.variance_of_mean() * f64::from(20_000);
+    assert_one(&moments, "dense milk");
+    assert!(variance < 0.5 && (moments.mean() - 1.0).abs() < 0.02, "{} ± √{variance}", moments.mean());
+}
+
+#[test]
 fn within_milk_radiance_is_the_square_of_the_index() {
     let mut kit = SceneKit::new();
     volume(&mut kit, "milk", 1.333, [0.0; 3], [1.5; 3], 0.2);

@@ -54,18 +54,17 @@ impl Flyer {
 
     fn fly_homogeneous(&self, medium: &Medium, distance: f32) -> Flight {
         let sigma_t = medium.sigma_t();
-        let transmittance = medium.transmittance(distance);
-        let emitted = emission_along(medium, sigma_t, transmittance, distance);
+        let emitted = emission_along(medium, sigma_t, distance);
         if !medium.scatters() {
-            return Flight { scatters_at: None, weight: transmittance, emitted };
+            return Flight { scatters_at: None, weight: medium.transmittance(distance), emitted };
         }
         let shares = self.shares(Spectrum::ONE);
         let t = next_distance(sigma_t.to_lanes()[pick(&shares, self.u.x)], self.u.y);
+        let transmittance = medium.transmittance(t.min(distance));
         if t >= distance {
             let probability = weighted(&shares, transmittance);
             return Flight { scatters_at: None, weight: transmittance / probability, emitted };
         }
-        let transmittance = medium.transmittance(t);
         let density = weighted(&shares, transmittance * sigma_t);
         Flight { scatters_at: Some(t), weight: transmittance * medium.sigma_s * (1.0 / density), emitted }
     }
@@ -153,15 +152,11 @@ pub(super) fn collision_rate(medium: &Medium, length: f32) -> f32 {
 }
 
 /// Light of a homogeneous medium along a way, as it arrives at its start.
-pub(super) fn emission_along(
-    medium: &Medium,
-    sigma_t: Spectrum,
-    transmittance: Spectrum,
-    distance: f32,
-) -> Spectrum {
+pub(super) fn emission_along(medium: &Medium, sigma_t: Spectrum, distance: f32) -> Spectrum {
     if !medium.shines() {
         return Spectrum::ZERO;
     }
+    let transmittance = medium.transmittance(distance);
     let (sigma_t, transmittance) = (sigma_t.to_lanes(), transmittance.to_lanes());
     let length = std::array::from_fn(|i| match sigma_t[i] * distance {
         // A thin medium: 1 - e^(-x) loses its digits.

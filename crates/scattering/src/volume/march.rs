@@ -95,10 +95,7 @@ impl Marcher {
                 }
             }
             let transmittance = medium.transmittance(distance);
-            return Marched {
-                transmittance,
-                emitted: emission_along(medium, medium.sigma_t(), transmittance, distance),
-            };
+            return Marched { transmittance, emitted: emission_along(medium, medium.sigma_t(), distance) };
         };
         let mut gridded =
             Gridded { medium, grid, ray, lanes: self.lanes, left: Spectrum::ONE, emitted: Spectrum::ZERO };

@@ -16,7 +16,7 @@ use super::emission::{PhotonEmitter, PhotonStart};
 use super::record::{Photon, PhotonKind};
 use super::specular::{is_specular, is_specular_event};
 use crate::in_volume;
-use crate::roulette::{PATIENCE_WITH_SHADING_NORMALS, survival};
+use crate::roulette::{PATIENCE_WITH_SHADING_NORMALS, Past, survival};
 use crate::stats::Stats;
 use crate::walk::{self, Event, Flown, Vertex, VolumeVertex};
 use hyaline_math::{Ray, Vec3};
@@ -178,6 +178,8 @@ struct Flight<'a> {
     events: u32,
     /// Those of them that scattered, singular ones not counted.
     bounces: u32,
+    /// Those of them in media of objects.
+    collisions: u32,
     /// Singular ones in a row.
     crossings: u32,
 }
@@ -193,6 +195,7 @@ impl<'a> Flight<'a> {
             kind: PhotonKind::Direct,
             events: 0,
             bounces: 0,
+            collisions: 0,
             crossings: 0,
         }
     }
@@ -247,6 +250,7 @@ impl<'a> Flight<'a> {
         self.kind = PhotonKind::Indirect;
         self.events += 1;
         self.bounces += 1;
+        self.collisions += Past::collisions_in(place.medium, &self.set);
         self.crossings = 0;
         let direction =
             in_volume::phase_at(self.tracer.world, place).sample(-self.ray.direction, sampler.next_2d());
@@ -294,7 +298,8 @@ impl<'a> Flight<'a> {
     fn lose(&mut self, factor: Spectrum, sampler: &mut Sampler) -> bool {
         self.flux *= factor;
         let left = self.flux.mean(self.tracer.world.lanes) / self.start_power;
-        let q = survival(left, self.bounces, self.crossings);
+        let Self { bounces, collisions, crossings, .. } = self;
+        let q = survival(left, Past { bounces: *bounces, collisions: *collisions, crossings: *crossings });
         if sampler.next_1d() >= q {
             return false;
         }

@@ -28,7 +28,7 @@ use crate::direct::LastScatter;
 use crate::first_hit;
 use crate::integrator::RenderSettings;
 use crate::integrator::merging::Photons;
-use crate::roulette::{PATIENCE_WITH_SHADING_NORMALS, eye_survival, lone_eye_survival};
+use crate::roulette::{PATIENCE_WITH_SHADING_NORMALS, Past, eye_survival, lone_eye_survival};
 use crate::stats::Stats;
 use crate::walk::{self, Event, Flown, Stretch};
 use aim::Aim;
@@ -76,6 +76,8 @@ struct Path {
     visible: u8,
     /// Scatterings so far, singular ones not counted.
     bounces: u32,
+    /// Those of them in media of objects.
+    collisions: u32,
     /// Singular events in a row.
     crossings: u32,
     /// Light found so far.
@@ -169,6 +171,7 @@ impl Eye<'_> {
             rival: 0.0,
             visible: mask::CAMERA,
             bounces: 0,
+            collisions: 0,
             crossings: 0,
             light: Spectrum::ZERO,
         }
@@ -222,7 +225,8 @@ impl Eye<'_> {
         let roulette = draws.sampler.next_1d();
         let weight = path.throughput.max_lane(self.world.lanes) / path.index_scale;
         let survival_of = if self.photons.is_some() { eye_survival } else { lone_eye_survival };
-        let survival = survival_of(weight, path.bounces, path.crossings);
+        let Path { bounces, collisions, crossings, .. } = *path;
+        let survival = survival_of(weight, Past { bounces, collisions, crossings });
         if self.settings.max_depth.is_some_and(|limit| path.bounces > limit) || roulette >= survival {
             return false;
         }

@@ -7,12 +7,18 @@ use super::{Draws, Eye, Path, weight};
 use crate::direct::LastScatter;
 use crate::in_volume::{self, VolumeLight};
 use crate::integrator::merging::{BEAM_SHARE, Photons};
+use crate::roulette::Past;
 use crate::walk::VolumeVertex;
 use hyaline_math::{Ray, Vec3};
 use hyaline_spectrum::Spectrum;
 use hyaline_world::light::{DirectSample, LightChoice};
 use hyaline_world::{World, mask};
 use std::f32::consts::PI;
+
+/// Collisions after which a path is deep in something dense, where most shadow rays end at its boundary: few more are shot.
+const MANY_COLLISIONS: u32 = 8;
+/// Chance that a path asks for light at a collision then.
+const CHANCE_AFTER_MANY: f32 = 0.25;
 
 impl Eye<'_> {
     /// Gathers, samples a light and scatters; returns whether the path goes on.
@@ -27,7 +33,11 @@ impl Eye<'_> {
             {
                 path.light += self.gather_in_volume(path, place, wo, photons, &mut draws.tally);
             }
-            path.light += path.throughput * self.sampled_light_in_volume(path, place, wo, draws);
+            let chance = if path.collisions < MANY_COLLISIONS { 1.0 } else { CHANCE_AFTER_MANY };
+            if chance == 1.0 || draws.sampler.next_1d() < chance {
+                let light = self.sampled_light_in_volume(path, place, wo, draws);
+                path.light += path.throughput * light * (1.0 / chance);
+            }
             if let Some(cones) = &aim {
                 path.light += self.aimed_light_in_volume(path, place, wo, cones, draws);
             }
@@ -46,6 +56,7 @@ impl Eye<'_> {
     pub(super) fn turn_at_place(&self, path: &mut Path, place: &VolumeVertex, wi: Vec3, pdf: f32) {
         let wo = -path.ray.direction;
         path.bounces += 1;
+        path.collisions += Past::collisions_in(place.medium, &path.set);
         (path.crossings, path.rival) = (0, 0.0);
         path.last = LastScatter { sampled: Some((place.p, pdf)), is_covered: false };
         if let Some(photons) = &self.photons {

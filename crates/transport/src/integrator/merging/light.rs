@@ -16,6 +16,7 @@ use crate::integrator::eye::reach::RoughNormal;
 use crate::integrator::eye::weight::{self, Side};
 use crate::photon::emission::start_numbers;
 use crate::photon::specular::is_specular_event;
+use crate::roulette::{PATIENCE_WITH_SHADING_NORMALS, Past, survival};
 use crate::stats::Stats;
 use crate::walk::{self, Event, Flown, Stretch, Vertex, VolumeVertex};
 use hyaline_math::{Ray, Vec2, Vec3};
@@ -29,8 +30,6 @@ use std::ops::Range;
 
 /// Photons that one task follows; a fixed number, so that the same photons go together for any number of threads.
 const CHUNK: u32 = 2048;
-/// Vertices after which roulette ends even lossless photons now and then, and shading normals are left.
-const PATIENCE: u32 = 64;
 /// Key the senders' random numbers apart from the pixels' and from each other's.
 const PHOTON_COLUMNS: [u32; 2] = [u32::MAX, u32::MAX - 1];
 
@@ -94,6 +93,8 @@ impl Light<'_> {
             full: flux.max_lane(self.world.lanes),
             vertices: 0,
             bounces: 0,
+            collisions: 0,
+            crossings: 0,
             comes_straight: true,
             leaves_beams: number < sender.beams(),
             id: PhotonId::new(sender.is_aimed, number),
@@ -164,7 +165,7 @@ impl Light<'_> {
         sampler: &mut Sampler,
         chunk: &mut Chunk,
     ) -> bool {
-        if photon.vertices > PATIENCE {
+        if photon.crossings > PATIENCE_WITH_SHADING_NORMALS {
             vertex.bsdf = vertex.bsdf.without_shading_normal();
         }
         photon.flux *= vertex.transmittance;
@@ -200,7 +201,10 @@ impl Light<'_> {
         if scattered.transmits {
             vertex.commit(self.world, &mut photon.set);
         }
-        if !scattered.is_delta {
+        if scattered.is_delta {
+            photon.crossings += 1;
+        } else {
+            photon.crossings = 0;
             self.pass(photon, vertex, scattered, ior_before);
             photon.is_indirect |= !is_specular_event(&vertex.bsdf, false);
         }
@@ -250,6 +254,8 @@ impl Light<'_> {
         let merges = photon.vertices > 0 || is_beam;
         photon.pass(self.world, place.p, pdf, if merges { own } else { 0.0 }, 1.0);
         (photon.comes_straight, photon.is_indirect) = (false, true);
+        photon.collisions += Past::collisions_in(place.medium, &photon.set);
+        photon.crossings = 0;
         photon.ray = Ray::new(place.p, wi);
         photon.vertices += 1;
     }
@@ -299,6 +305,10 @@ pub(in crate::integrator) struct Photon<'a> {
     pub(in crate::integrator) vertices: u32,
     /// Those of them that were not singular.
     pub(in crate::integrator) bounces: u32,
+    /// Those of them in media of objects.
+    pub(in crate::integrator) collisions: u32,
+    /// Singular ones in a row.
+    pub(in crate::integrator) crossings: u32,
     /// Whether all it has done was to cross surfaces with straight shadows.
     pub(in crate::integrator) comes_straight: bool,
     /// Whether its ways through homogeneous media are kept.
@@ -351,7 +361,8 @@ impl Photon<'_> {
     /// Roulette after a vertex: what goes on carries about as much as at first.
     fn survives(&mut self, world: &World, sampler: &mut Sampler) -> bool {
         let left = self.flux.max_lane(world.lanes) / self.full;
-        let survival = if self.vertices > PATIENCE { left.min(0.9) } else { left.min(1.0) };
+        let Self { bounces, collisions, crossings, .. } = *self;
+        let survival = survival(left, Past { bounces, collisions, crossings });
         // Compared this way round, what is not a number ends the photon.
         let goes_on = sampler.next_1d() < survival;
         self.flux *= 1.0 / survival;

@@ -5,7 +5,7 @@ use crate::RenderSettings;
 use crate::direct;
 use crate::march::Found;
 use crate::photon::specular::is_specular_event;
-use crate::roulette::{PATIENCE_WITH_SHADING_NORMALS, eye_survival};
+use crate::roulette::{PATIENCE_WITH_SHADING_NORMALS, Past, eye_survival};
 use crate::stats::Stats;
 use crate::walk::{self, Event, Flown, Vertex};
 use hyaline_math::{Ray, Vec3};
@@ -210,7 +210,8 @@ impl Strand {
     }
 
     fn survives(&mut self, lanes: usize, sampler: &mut Sampler) -> bool {
-        let q = eye_survival(self.throughput.max_lane(lanes) / self.scale, self.bounces, self.crossings);
+        let past = Past { bounces: self.bounces, collisions: 0, crossings: self.crossings };
+        let q = eye_survival(self.throughput.max_lane(lanes) / self.scale, past);
         self.throughput *= 1.0 / q;
         sampler.next_1d() < q
     }
