@@ -57,7 +57,7 @@ fn add_rough(kit: &mut SceneKit, roughness: f32) {
 
 #[test]
 fn chains_of_rough_glass_and_metal_lose_and_double_no_light() {
-    for roughness in [0.25, 0.7] {
+    for roughness in [0.25, 0.45, 0.7] {
         let mut kit = hollow(lamp_ball);
         add_rough(&mut kit, roughness);
         assert_as_path(&kit.world(), &format!("roughness {roughness}"));
