@@ -8,39 +8,34 @@ use hyaline_scene::*;
 use hyaline_testkit::Moments;
 use hyaline_transport::RenderSettings;
 use hyaline_world::World;
-use pictures::{Shot, assert_same, luminance};
+use pictures::{Shot, assert_same, known_to, luminance};
 use scene_kit::*;
 use std::ops::Range;
 
-/// Pictures made of each scene.
-const SEEDS: u64 = 12;
+/// Relative error of the difference above which nothing would be shown.
+const POWER: f64 = 0.01;
+/// The same where few photons and few paths carry much of the light.
+const POWER_UNDER_WATER: f64 = 0.012;
 /// Passes so late that their radius is a fortieth of the first one's: with pixels as large as these, blur would carry
 /// light across edges, out of the glass that it is in.
-const LATE: Range<u32> = 4_000_000..4_000_036;
+const LATE: Range<u32> = 4_000_000..4_000_012;
 
-/// Mean of a picture over some passes, for `SEEDS` seeds.
-fn means(world: &World, integrator: &str, passes: Range<u32>) -> Moments {
-    let mut moments = Moments::new();
-    for seed in 0..SEEDS {
+/// Mean of a picture over some passes, for as many seeds as it takes to know a difference of two to `power`.
+fn means(world: &World, integrator: &str, passes: Range<u32>, power: f64) -> Moments {
+    known_to(0.7 * power, 0, |seed| {
         let settings = RenderSettings { seed, ..settings() };
-        let shot = Shot { world, integrator, settings, size: (8, 8) };
-        let (mut sum, mut count) = (0.0, 0);
-        shot.render(shot.full_frame(), passes.clone(), |_, samples| {
-            sum += samples.iter().map(luminance).sum::<f64>();
-            count += samples.len();
-        });
-        moments.push(sum / f64::from(count as u32));
-    }
-    moments
+        Shot { world, integrator, settings, size: (8, 8) }.mean(passes.clone())
+    })
 }
 
-fn assert_as_path(world: &World, what: &str) {
-    assert_same(&means(world, "merging", LATE), &means(world, "path", 0..200), 0.012, what);
+fn assert_as_path(world: &World, power: f64, what: &str) {
+    let (photons, paths) = (means(world, "merging", LATE, power), means(world, "path", 0..64, power));
+    assert_same(&photons, &paths, power, what);
 }
 
 #[test]
 fn a_lamp_seen_through_glass_counts_once() {
-    assert_as_path(&hollow(lamp_ball).world(), "glass ball");
+    assert_as_path(&hollow(lamp_ball).world(), POWER, "glass ball");
 }
 
 /// Adds finishes from polished to half matte: chains of them end at the wall or at each other.
@@ -60,7 +55,7 @@ fn chains_of_rough_glass_and_metal_lose_and_double_no_light() {
     for roughness in [0.25, 0.45, 0.7] {
         let mut kit = hollow(lamp_ball);
         add_rough(&mut kit, roughness);
-        assert_as_path(&kit.world(), &format!("roughness {roughness}"));
+        assert_as_path(&kit.world(), POWER, &format!("roughness {roughness}"));
     }
 }
 
@@ -78,7 +73,7 @@ fn mirrors_throw_light_on_walls_and_through_glass() {
         rectangle(DVec3::new(0.2, -1.2, 0.0), DVec3::Z * 0.4, DVec3::X * 0.4),
         "mirror",
     );
-    assert_as_path(&kit.world(), "mirrors");
+    assert_as_path(&kit.world(), POWER, "mirrors");
 }
 
 #[test]
@@ -88,7 +83,7 @@ fn light_through_a_glass_of_water_counts_once() {
     kit.medium("water", 1.333);
     let glass = tumbler(RimKind::Round, &[("water", 0.75, 0.001)], 9.0);
     kit.object("tumbler", glass, BoundaryDescription::None, "dielectric");
-    assert_as_path(&kit.world(), "glass of water");
+    assert_as_path(&kit.world(), POWER, "glass of water");
 }
 
 #[test]
@@ -123,7 +118,7 @@ fn a_varnished_wall_reflects_caustics_and_receives_them() {
     };
     kit.material("varnish", plastic);
     kit.surface("board", rectangle(DVec3::new(0.0, -1.2, -0.6), DVec3::Z, DVec3::X), "varnish");
-    assert_as_path(&kit.world(), "varnish");
+    assert_as_path(&kit.world(), POWER, "varnish");
 }
 
 #[test]
@@ -138,7 +133,11 @@ fn under_water_radiance_and_photons_agree() {
         kit.surface("plane", ground, "matte");
         let square = rectangle(DVec3::Y * lamp, DVec3::X * 1.5, DVec3::Z * (1.5 * up));
         kit.lamp("lamp", square, 5.0).camera(DVec3::new(0.0, camera, 1.5), DVec3::Y * plane);
-        assert_as_path(&kit.world(), &format!("camera {camera}, plane {plane}, lamp {lamp}"));
+        assert_as_path(
+            &kit.world(),
+            POWER_UNDER_WATER,
+            &format!("camera {camera}, plane {plane}, lamp {lamp}"),
+        );
     }
 }
 
@@ -149,7 +148,7 @@ fn the_sky_through_glass_counts_once() {
     kit.medium("glass", 1.5).solid("ball", sphere(DVec3::new(0.0, 0.0, -0.4), 0.5), "glass");
     add_rough(&mut kit, 0.3);
     kit.sky(1.0).camera(DVec3::new(0.0, 0.8, 2.0), DVec3::new(0.0, -0.4, -0.3));
-    assert_as_path(&kit.world(), "sky");
+    assert_as_path(&kit.world(), POWER, "sky");
 }
 
 fn fog(kit: &mut SceneKit) {
@@ -167,7 +166,7 @@ fn fog(kit: &mut SceneKit) {
 fn in_fog_photons_and_paths_agree() {
     let mut kit = hollow(lamp_ball);
     fog(&mut kit);
-    assert_as_path(&kit.world(), "fog");
+    assert_as_path(&kit.world(), POWER, "fog");
 }
 
 #[test]
@@ -188,8 +187,9 @@ fn a_point_is_a_very_small_lamp() {
             add_rough(&mut point, roughness);
             add_rough(&mut ball, roughness);
         }
-        let (a, b) = (means(&point.world(), "merging", LATE), means(&ball.world(), "merging", LATE));
-        assert_same(&a, &b, 0.012, &format!("point, roughness {roughness}"));
+        let (a, b) =
+            (means(&point.world(), "merging", LATE, POWER), means(&ball.world(), "merging", LATE, POWER));
+        assert_same(&a, &b, POWER, &format!("point, roughness {roughness}"));
     }
 }
 

@@ -9,13 +9,13 @@ use hyaline_scene::*;
 use hyaline_testkit::Moments;
 use hyaline_transport::RenderSettings;
 use hyaline_world::World;
-use pictures::{Shot, assert_same, luminance};
+use pictures::{Shot, assert_same, known_to};
 use scene_kit::*;
 
-/// Pictures made, each with maps of its own.
-const SEEDS: u64 = 12;
+/// Relative error of a difference above which nothing would be shown.
+const POWER: f64 = 0.018;
 
-/// Mean of a picture over `passes` passes, for `SEEDS` seeds.
+/// Mean of a picture over `passes` passes, for as many seeds as that takes, each with maps of its own.
 fn means(world: &World, integrator: &str, photon_map: PhotonMapSettings, passes: u32) -> Moments {
     means_to_depth(world, integrator, photon_map, passes, None)
 }
@@ -27,18 +27,10 @@ fn means_to_depth(
     passes: u32,
     max_depth: Option<u32>,
 ) -> Moments {
-    let mut moments = Moments::new();
-    for seed in 0..SEEDS {
+    known_to(0.7 * POWER, 0, |seed| {
         let settings = RenderSettings { seed, photon_map, max_depth, ..settings() };
-        let shot = Shot { world, integrator, settings, size: (8, 8) };
-        let (mut sum, mut count) = (0.0, 0);
-        shot.render(shot.full_frame(), 0..passes, |_, samples| {
-            sum += samples.iter().map(luminance).sum::<f64>();
-            count += samples.len();
-        });
-        moments.push(sum / f64::from(count as u32));
-    }
-    moments
+        Shot { world, integrator, settings, size: (8, 8) }.mean(0..passes)
+    })
 }
 
 fn few_photons() -> PhotonMapSettings {
@@ -79,9 +71,9 @@ fn light_through_a_water_surface_is_that_of_path_tracing() {
     ];
     for (what, world) in cases {
         let photon_map = PhotonMapSettings { caustic_photons: 60_000, ..few_photons() };
-        let maps = means(&world, "photon-map", photon_map, 24);
-        let paths = means(&world, "path", photon_map, 200);
-        assert_same(&maps, &paths, 0.018, what);
+        let maps = means(&world, "photon-map", photon_map, 3);
+        let paths = means(&world, "path", photon_map, 64);
+        assert_same(&maps, &paths, POWER, what);
     }
 }
 
@@ -92,9 +84,9 @@ fn point_light(kit: &mut SceneKit) {
 #[test]
 fn every_way_to_look_light_up_gives_the_picture_of_path_tracing() {
     let world = hollow(lamp_ball).world();
-    let paths = means(&world, "path", few_photons(), 80);
+    let paths = means(&world, "path", few_photons(), 24);
     for (what, photon_map) in ways() {
-        assert_same(&means(&world, "photon-map", photon_map, 6), &paths, 0.018, what);
+        assert_same(&means(&world, "photon-map", photon_map, 2), &paths, POWER, what);
     }
 }
 
@@ -102,9 +94,9 @@ fn every_way_to_look_light_up_gives_the_picture_of_path_tracing() {
 fn light_of_a_point_through_glass_comes_from_the_caustic_map_in_every_way() {
     let world = hollow(point_light).world();
     let [(_, plain), others @ ..] = ways();
-    let first = means(&world, "photon-map", plain, 8);
+    let first = means(&world, "photon-map", plain, 3);
     for (what, photon_map) in others {
-        assert_same(&means(&world, "photon-map", photon_map, 8), &first, 0.018, what);
+        assert_same(&means(&world, "photon-map", photon_map, 3), &first, POWER, what);
     }
 }
 
@@ -113,9 +105,9 @@ fn paths_are_as_long_as_is_asked_for() {
     let world = hollow(lamp_ball).world();
     let [plain, _, straight, ..] = ways().map(|(_, photon_map)| photon_map);
     for (depth, photon_map) in [(1, plain), (2, plain), (3, plain), (2, straight)] {
-        let maps = means_to_depth(&world, "photon-map", photon_map, 6, Some(depth));
-        let paths = means_to_depth(&world, "path", photon_map, 60, Some(depth));
-        assert_same(&maps, &paths, 0.02, &format!("{depth} bounces"));
+        let maps = means_to_depth(&world, "photon-map", photon_map, 2, Some(depth));
+        let paths = means_to_depth(&world, "path", photon_map, 20, Some(depth));
+        assert_same(&maps, &paths, POWER, &format!("{depth} bounces"));
     }
 }
 
@@ -152,9 +144,9 @@ fn finishes_between_polished_and_matte_lose_no_light() {
         };
         kit.material("glossy", phong).surface("ball", sphere(DVec3::new(0.2, 0.5, -1.0), 0.3), "glossy");
         let world = kit.world();
-        let paths = means(&world, "path", few_photons(), 80);
-        let maps = means(&world, "photon-map", few_photons(), 8);
-        assert_same(&maps, &paths, 0.018, &format!("roughness {roughness}"));
+        let paths = means(&world, "path", few_photons(), 24);
+        let maps = means(&world, "photon-map", few_photons(), 3);
+        assert_same(&maps, &paths, POWER, &format!("roughness {roughness}"));
     }
 }
 
@@ -167,8 +159,8 @@ fn a_sky_and_lamps_that_shine_through_each_other_are_counted_once() {
     kit.camera(DVec3::new(0.0, 1.0, 2.6), DVec3::new(0.0, -0.4, 0.0));
     let world = kit.world();
     let photon_map = PhotonMapSettings { caustic_photons: 20_000, global_photons: 40_000, ..few_photons() };
-    let paths = means(&world, "path", few_photons(), 80);
-    assert_same(&means(&world, "photon-map", photon_map, 6), &paths, 0.02, "lens under a sky");
+    let paths = means(&world, "path", few_photons(), 24);
+    assert_same(&means(&world, "photon-map", photon_map, 2), &paths, POWER, "lens under a sky");
 }
 
 #[test]

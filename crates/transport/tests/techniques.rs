@@ -8,38 +8,28 @@ use hyaline_scene::*;
 use hyaline_testkit::Moments;
 use hyaline_transport::RenderSettings;
 use hyaline_world::World;
-use pictures::{Shot, assert_same, luminance};
+use pictures::{Shot, assert_same, known_to};
 use scene_kit::*;
 use std::ops::Range;
 
-/// Pictures made of each scene.
-const SEEDS: u64 = 12;
-/// Passes so late that blur is small, and as many of them as the noisier ways need.
-const LATE: Range<u32> = 62_500..62_524;
-/// Relative error of a mean above which nothing would be shown.
-const POWER: f64 = 0.02;
+/// Passes so late that blur is small.
+const LATE: Range<u32> = 62_500..62_508;
+/// Relative error of a difference above which nothing would be shown.
+const POWER: f64 = 0.01;
 
-/// Mean of a picture by some of the ways, for `SEEDS` seeds; different ways draw different numbers.
+/// Mean of a picture by some of the ways, for as many seeds as that takes; different ways draw different numbers.
 fn means(world: &World, techniques: Techniques, first_seed: u64) -> Moments {
-    let mut moments = Moments::new();
-    for seed in first_seed..first_seed + SEEDS {
+    known_to(0.7 * POWER, first_seed, |seed| {
         let settings = RenderSettings { seed, techniques, ..settings() };
-        let shot = Shot { world, integrator: "merging", settings, size: (16, 16) };
-        let (mut sum, mut count) = (0.0, 0);
-        shot.render(shot.full_frame(), LATE, |_, samples| {
-            sum += samples.iter().map(luminance).sum::<f64>();
-            count += samples.len();
-        });
-        moments.push(sum / f64::from(count as u32));
-    }
-    moments
+        Shot { world, integrator: "merging", settings, size: (16, 16) }.mean(LATE)
+    })
 }
 
 /// Fails unless the picture is the same in the mean without each of these ways.
 fn assert_same_without(world: &World, ways: &[(&str, Techniques)], what: &str) {
     let whole = means(world, Techniques::default(), 0);
     for (index, (name, techniques)) in ways.iter().enumerate() {
-        let part = means(world, *techniques, 100 * (index as u64 + 1));
+        let part = means(world, *techniques, 1000 * (index as u64 + 1));
         assert_same(&whole, &part, POWER, &format!("{what}, without {name}"));
     }
 }

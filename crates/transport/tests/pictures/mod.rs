@@ -47,6 +47,16 @@ impl Shot<'_> {
         stats
     }
 
+    /// Mean of the full frame over passes.
+    pub fn mean(&self, passes: Range<u32>) -> f64 {
+        let (mut sum, mut count) = (0.0, 0);
+        self.render(self.full_frame(), passes, |_, samples| {
+            sum += samples.iter().map(luminance).sum::<f64>();
+            count += samples.len();
+        });
+        sum / f64::from(count as u32)
+    }
+
     /// Mean over passes of the frame's square tiles of `edge` pixels, row by row; passes are the independent numbers.
     pub fn tiles(&self, edge: u32, passes: Range<u32>) -> Vec<Moments> {
         let (columns, rows) = (self.size.0 / edge, self.size.1 / edge);
@@ -130,14 +140,35 @@ fn whole(tiles: &[Moments]) -> (f64, f64) {
 /// Chance of calling pictures different that are not.
 const LEVEL: f64 = 1e-3;
 
+/// Pictures of a way to render at the least: their scatter is known to a fifth.
+const FEWEST: u64 = 12;
+/// Pictures after which it is given up: a way that needs more is not worth its time in a test.
+const MOST: u64 = 100;
+
+/// Mean of the means that `picture` has for each seed, from as many as it takes to know it to `error`, relative.
+///
+/// Fails where that is not to be had.
+pub fn known_to(error: f64, first_seed: u64, picture: impl Fn(u64) -> f64) -> Moments {
+    let mut moments = Moments::new();
+    for seed in first_seed..first_seed + MOST {
+        moments.push(picture(seed));
+        if seed + 1 >= first_seed + FEWEST && moments.variance_of_mean().sqrt() < error * moments.mean() {
+            return moments;
+        }
+    }
+    panic!("{MOST} pictures have a mean of {} ± {}", moments.mean(), moments.variance_of_mean().sqrt());
+}
+
 /// Fails unless the means agree, and are known to `power`.
 pub fn assert_same(a: &Moments, b: &Moments, power: f64, what: &str) {
     let error = (a.variance_of_mean() + b.variance_of_mean()).sqrt();
     println!(
-        "{what}: {} and {} ± {error}, {:+.2} %",
+        "{what}: {} and {} ± {error}, {:+.2} %, {} and {} pictures",
         a.mean(),
         b.mean(),
-        100.0 * (a.mean() / b.mean() - 1.0)
+        100.0 * (a.mean() / b.mean() - 1.0),
+        a.count(),
+        b.count()
     );
     assert!(error < power * b.mean(), "{what}: an error of {error} in {} shows nothing", b.mean());
     let chance =
