@@ -4,6 +4,7 @@
 extern crate self as hyaline_transport;
 
 pub mod direct;
+mod extent;
 pub mod first_hit;
 pub mod in_volume;
 pub mod integrator;

@@ -171,6 +171,8 @@ pub struct Stretch<'a> {
     pub medium: &'a Medium,
     /// Its index.
     pub id: MediumId,
+    /// All that the way is in.
+    pub set: &'a MediumSet,
     /// From where, in which direction.
     pub ray: Ray,
     /// Length to the next crossing, scene units; may be infinite.
@@ -242,7 +244,7 @@ impl<Watch: FnMut(&Stretch<'_>)> Between for Flights<'_, Watch> {
         if medium.grid.is_none() && medium.scatters() {
             let flown = flight.scatters_at.unwrap_or(distance);
             let id = set.active();
-            (self.watch)(&Stretch { medium, id, ray: *ray, way: distance, flown, left: *left });
+            (self.watch)(&Stretch { medium, id, set, ray: *ray, way: distance, flown, left: *left });
         }
         self.emitted += *left * flight.emitted;
         *left *= flight.weight;

@@ -6,14 +6,12 @@
 //! tangent plane, are left out.
 
 use super::kernel::Kernel;
+use crate::extent::end_of_medium;
 use crate::stats::Stats;
-use hyaline_math::{Frame, Ray, Vec2, Vec3, float, offset_origin};
+use hyaline_math::{Frame, Ray, Vec2, Vec3, float};
 use hyaline_sampling::warp;
 use hyaline_scattering::MediumSet;
-use hyaline_world::{World, mask};
-
-/// Boundaries of no effect that are crossed along one ray, at most.
-const MOST_CROSSINGS: u32 = 16;
+use hyaline_world::World;
 
 /// Least share of a ball: a place squeezed between walls must not shine without bound.
 const LEAST_SHARE: f32 = 0.05;
@@ -51,7 +49,7 @@ impl Clip {
         let mut share = 0.0;
         for direction in axes(u, turn).into_iter().flat_map(|axis| [axis, -axis]) {
             let ray = Ray { t_max: radius, ..Ray::new(p, direction) };
-            let reach = match end_of_medium(world, ray, set, stats) {
+            let reach = match end_of_medium(world, ray, set, &mut stats.rays) {
                 None => radius,
                 Some((t, end, normal)) => {
                     let inside = if normal.dot(direction) > 0.0 { -normal } else { normal };
@@ -77,28 +75,4 @@ fn axes(u: Vec2, turn: f32) -> [Vec3; 3] {
     let frame = Frame::from_normal(warp::sample_sphere(u));
     let (sin, cos) = float::sin_cos(std::f32::consts::TAU * turn);
     [Vec3::new(cos, sin, 0.0), Vec3::new(-sin, cos, 0.0), Vec3::Z].map(|axis| frame.to_world(axis))
-}
-
-/// Where the medium ends along a ray, before the ray's end: the distance, the place and the normal there.
-fn end_of_medium(
-    world: &World,
-    mut ray: Ray,
-    set: &MediumSet,
-    stats: &mut Stats,
-) -> Option<(f32, Vec3, Vec3)> {
-    let (mut set, within, mut gone) = (set.clone(), set.active(), 0.0);
-    for _ in 0..MOST_CROSSINGS {
-        stats.rays += 1;
-        let candidate = world.geometry.closest(&ray, mask::PATH)?;
-        // What was never entered is told by the rays that carry light.
-        let (hit, encounter) = world.meet(&ray, &candidate, &mut set, mask::PATH, &mut |_| ());
-        encounter.commit(world, &mut set);
-        if encounter.crossing.is_none() || set.active() != within {
-            return Some((gone + hit.t, hit.p, hit.ng));
-        }
-        gone += hit.t;
-        ray.origin = offset_origin(hit.p, hit.p_error, hit.ng, ray.direction);
-        ray.t_max -= hit.t;
-    }
-    None
 }

@@ -1,7 +1,7 @@
 //! What a path gathers all along its way through a homogeneous medium: the beams that it passes.
 
 use super::merges::{Beyond, Merges};
-use super::weight;
+use super::{weight, within};
 use crate::integrator::merging::{BEAM_SHARE, Beam, Passing, PhotonId, Photons};
 use crate::walk::Stretch;
 use hyaline_math::Ray;
@@ -28,9 +28,14 @@ pub(super) struct Along<'a> {
 impl Along<'_> {
     /// Light of the beams about a stretch, as it arrives where the path's way starts.
     ///
-    /// - `note`: is told the light of every beam that is looked at.
-    pub(super) fn gather(&self, stretch: &Stretch<'_>, mut note: impl FnMut(PhotonId, Spectrum)) -> Spectrum {
-        let Stretch { medium, id, ray, way, flown, left } = stretch;
+    /// - `note`: is told the light of every beam that is looked at; `rays` counts what is traced.
+    pub(super) fn gather(
+        &self,
+        stretch: &Stretch<'_>,
+        rays: &mut u64,
+        mut note: impl FnMut(PhotonId, Spectrum),
+    ) -> Spectrum {
+        let Stretch { medium, id, ray, way, flown, left, .. } = stretch;
         let own_weight = BeamWeight::new(medium, self.throughput * *left, self.world.lanes);
         let scattered = medium.sigma_s * *left;
         let mut sum = Spectrum::ZERO;
@@ -40,7 +45,7 @@ impl Along<'_> {
             }
             let phase = medium.phase.value(-ray.direction, -beam.direction);
             let weight = self.weight_of(beam, passing, ray, medium, phase);
-            let kernel = 1.0 / (2.0 * passing.radius * passing.sin);
+            let kernel = 1.0 / (self.kernel_width(stretch, beam, passing, rays) * passing.sin);
             let light = own_weight.at(passing.on_ray)
                 * beam.weight.at(passing.on_beam)
                 * beam.flux
@@ -50,6 +55,17 @@ impl Along<'_> {
             sum += light;
         });
         sum
+    }
+
+    /// Width of the kernel across the ray and a beam, scene units.
+    fn kernel_width(&self, stretch: &Stretch<'_>, beam: &Beam, passing: &Passing, rays: &mut u64) -> f32 {
+        let Stretch { set, ray, way, .. } = stretch;
+        let Passing { on_ray, radius, sin, .. } = *passing;
+        if !within::is_near_an_end(on_ray, *way, radius) {
+            return 2.0 * radius;
+        }
+        let across = ray.direction.cross(beam.direction) / sin;
+        within::kernel_width(self.world, (ray.at(on_ray), radius), across, set, rays)
     }
 
     /// What merging a beam counts beside the other ways to make the path.

@@ -23,6 +23,7 @@ pub(super) mod tally;
 #[cfg(test)]
 mod tests;
 pub(super) mod weight;
+mod within;
 
 use crate::direct::LastScatter;
 use crate::first_hit;
@@ -196,16 +197,17 @@ impl Eye<'_> {
             merges: *merges,
             bounces_left,
         });
-        let mut gathered = Spectrum::ZERO;
+        let (mut gathered, mut rays) = (Spectrum::ZERO, 0);
         let Draws { sampler, stats, tally } = draws;
         let carried = *throughput * (1.0 / chance);
         let watch = |stretch: &Stretch<'_>| {
             gathered += along.as_ref().map_or(Spectrum::ZERO, |along| {
-                along.gather(stretch, |photon, light| tally.note(photon, carried * light))
+                along.gather(stretch, &mut rays, |photon, light| tally.note(photon, carried * light))
             });
         };
         let (flown, emitted) =
             walk::fly_watched(self.world, ray, *visible, set, *throughput, sampler, stats, watch);
+        draws.stats.rays += rays;
         path.light += path.throughput * emitted + carried * gathered;
         flown
     }

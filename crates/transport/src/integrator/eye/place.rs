@@ -2,8 +2,7 @@
 
 use super::merges::{Beyond, Passed, Place};
 use super::radius::GatherRadius;
-use super::tally::Tally;
-use super::{Draws, Eye, Path, weight};
+use super::{Draws, Eye, Path, weight, within};
 use crate::direct::LastScatter;
 use crate::in_volume::{self, VolumeLight};
 use crate::integrator::merging::{BEAM_SHARE, Photons};
@@ -31,7 +30,7 @@ impl Eye<'_> {
             if let Some(photons) = &self.photons
                 && Place::in_medium(medium) == Place::Grid
             {
-                path.light += self.gather_in_volume(path, place, wo, photons, &mut draws.tally);
+                path.light += self.gather_in_volume(path, place, wo, photons, draws);
             }
             let chance = if path.collisions < MANY_COLLISIONS { 1.0 } else { CHANCE_AFTER_MANY };
             if chance == 1.0 || draws.sampler.next_1d() < chance {
@@ -75,7 +74,7 @@ impl Eye<'_> {
         place: &VolumeVertex,
         wo: Vec3,
         photons: &Photons<'_>,
-        tally: &mut Tally<'_>,
+        draws: &mut Draws<'_>,
     ) -> Spectrum {
         let medium = &self.world.media[place.medium.index()];
         let radius = photons.radius.in_volume(place.p);
@@ -85,15 +84,19 @@ impl Eye<'_> {
         let carried = path.throughput * sigma_s * (1.0 / (4.0 / 3.0 * PI * radius * radius * radius));
         let points = self.points_about(path, place, photons);
         let left = self.bounces_left(path);
-        photons.landed.volume(place.p, radius, |photon| {
+        let light = photons.landed.volume(place.p, radius, |photon| {
             if photon.bounces >= left {
                 return Spectrum::ZERO;
             }
             let phase = medium.phase.value(wo, -photon.direction);
             let light = carried * photon.flux * (phase * points.weight_of(phase, photon.others));
-            tally.note(photon.id, light);
+            draws.tally.note(photon.id, light);
             light
-        })
+        });
+        if light.is_zero() {
+            return light;
+        }
+        light * within::ball_over_part(self.world, (place.p, radius), &path.set, draws)
     }
 
     /// What weights of photons about a particle have in common.
