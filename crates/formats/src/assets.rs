@@ -7,7 +7,7 @@
 use crate::grid::{BoxedGrid, read_raw, read_vol};
 use crate::image::Encoding;
 use crate::mesh::FileMesh;
-use crate::{Result, image, mesh};
+use crate::{Result, ending, image, mesh};
 use hyaline_scene::{GridData, ImageData, MeshData, SceneError, Source};
 use std::cell::RefCell;
 use std::collections::BTreeMap;
@@ -135,6 +135,7 @@ impl Assets {
         if let Some(grid) = self.grids.borrow().get(&path) {
             return Ok(grid.clone());
         }
+        refuse_sparse_grid(source, name)?;
         let bytes = read_file(source, name, &path)?;
         let grid = Arc::new(read_vol(&bytes).map_err(|message| in_file(&path, message, source))?);
         self.grids.borrow_mut().insert(path, grid.clone());
@@ -156,6 +157,20 @@ impl Assets {
         let bytes = read_file(source, name, &path)?;
         read_raw(&bytes, size, channels).map_err(|message| in_file(&path, message, source))
     }
+}
+
+/// Names the formats of sparse grids, which would otherwise be taken for damaged files of another one.
+///
+/// # Errors
+/// The ending of the file is that of OpenVDB or NanoVDB.
+pub(crate) fn refuse_sparse_grid(source: &Source, name: &str) -> Result<()> {
+    let format = match ending(Path::new(name)).as_str() {
+        "vdb" => "OpenVDB",
+        "nvdb" => "NanoVDB",
+        _ => return Ok(()),
+    };
+    let error = SceneError::at(source, format!("'{name}': {format} grids can't be read"));
+    Err(error.with_remedy("convert it to Mitsuba's .vol, or to dense f32 numbers with `size`"))
 }
 
 /// A fault of a file as a whole.

@@ -21,7 +21,6 @@ mod color;
 mod grid;
 mod image;
 mod limits;
-mod measured;
 mod mesh;
 mod mitsuba;
 mod nearest;

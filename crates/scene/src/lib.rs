@@ -7,6 +7,7 @@ pub mod camera;
 pub mod error;
 pub mod light;
 pub mod material;
+pub mod measured;
 pub mod medium;
 pub mod mesh;
 pub mod object;

@@ -9,8 +9,8 @@ use super::importer::Importer;
 use super::phase;
 use crate::Result;
 use crate::limits::Limits;
-use crate::measured::{self, Measured};
 use hyaline_math::Transform;
+use hyaline_scene::measured::{self, Measured};
 use hyaline_scene::{
     Absorption, DensityGrid, GridData, MediumDescription, PhaseDescription, Rgb, Scattering,
 };

@@ -8,7 +8,7 @@
 
 use super::field::Field;
 use super::transform;
-use crate::assets::Assets;
+use crate::assets::{Assets, refuse_sparse_grid};
 use crate::grid::BoxedGrid;
 use crate::limits::Limits;
 use crate::{Result, ending};
@@ -28,7 +28,7 @@ pub(super) fn read(field: Field<'_>, metres: f64, assets: &Assets) -> Result<Den
     let mut table = field.table("grid of a medium")?;
     let file = table.require("file", "\"smoke.raw\"")?;
     let size = table.read_some("size", size)?;
-    let BoxedGrid { data: density, bounds } = data(file, size, 1, assets)?;
+    let BoxedGrid { data: density, bounds } = data(file, size, size, 1, assets)?;
     if density.channels != 1 {
         return Err(file.error("a grid of densities has one channel, but this one has three"));
     }
@@ -49,22 +49,47 @@ pub(super) fn read(field: Field<'_>, metres: f64, assets: &Assets) -> Result<Den
 fn albedo(field: Field<'_>, usual_size: [u32; 3], assets: &Assets) -> Result<Arc<GridData>> {
     let mut table = field.table("albedo of a grid")?;
     let file = table.require("file", "\"albedo.raw\"")?;
-    let size = table.read("size", usual_size, size)?;
-    let channels = table.read("channels", 3, |field| field.integer(1, 3))?;
+    let said = table.read_some("size", size)?;
+    let channels = table.read_some("channels", |field| field.integer(1, 3).map(|count| count as u32))?;
     table.finish()?;
-    let grid = data(file, Some(size), channels as u32, assets)?.data;
+    let grid = data(file, said, said.or(Some(usual_size)), channels.unwrap_or(3), assets)?.data;
+    if let Some(channels) = channels.filter(|channels| *channels != grid.channels) {
+        let error = file.error(format!("`channels` is {channels}, but the file has {}", grid.channels));
+        return Err(error.with_remedy("remove `channels`: the file says it"));
+    }
     match grid.values.iter().find(|value| !Limits::FRACTION.contain(f64::from(**value))) {
         Some(bad) => Err(file.error(format!("an albedo is from 0 to 1, but the file has {bad}"))),
         None => Ok(grid),
     }
 }
 
-/// The numbers of a file; `size` and `channels` are those of a bare one.
-fn data(file: Field<'_>, size: Option<[u32; 3]>, channels: u32, assets: &Assets) -> Result<BoxedGrid> {
+/// The numbers of a file.
+///
+/// - `said`: what the scene says of its size; a file that tells its own must not contradict.
+/// - `size`, `channels`: those of a bare file.
+///
+/// # Errors
+/// The file can't be read, is of another size, or is bare and of no size.
+fn data(
+    file: Field<'_>,
+    said: Option<[u32; 3]>,
+    size: Option<[u32; 3]>,
+    channels: u32,
+    assets: &Assets,
+) -> Result<BoxedGrid> {
     let name = file.string()?;
     if ending(Path::new(name)) == "vol" {
-        return assets.grid(file.source(), name).map(|grid| BoxedGrid::clone(&grid));
+        let grid = assets.grid(file.source(), name).map(|grid| BoxedGrid::clone(&grid))?;
+        let found = grid.data.size;
+        return match said {
+            Some(said) if said != found => {
+                let error = file.error(format!("`size` is {said:?}, but '{name}' has {found:?} cells"));
+                Err(error.with_remedy("remove `size`: the file says it"))
+            }
+            _ => Ok(grid),
+        };
     }
+    refuse_sparse_grid(file.source(), name)?;
     let Some(size) = size else {
         let error = file.error(format!("'{name}' does not say its size"));
         return Err(error.with_remedy("add `size = [x, y, z]`, the cells along each axis"));
@@ -81,7 +106,7 @@ fn size(field: Field<'_>) -> Result<[u32; 3]> {
 mod tests {
     use crate::load_toml_text;
     use hyaline_math::DVec3;
-    use hyaline_scene::{Absorption, DensityGrid, IndexDescription, PhaseDescription, SceneError};
+    use hyaline_scene::{DensityGrid, PhaseDescription, SceneError};
     use std::path::Path;
 
     fn folder() -> tempfile::TempDir {
@@ -110,6 +135,20 @@ mod tests {
 
     fn grid(keys: &str) -> Result<DensityGrid, SceneError> {
         load(&format!("sigma_s = 1\ngrid = {{ {keys} }}")).map(|medium| medium.density.unwrap())
+    }
+
+    #[test]
+    fn a_size_that_agrees_with_its_file_is_no_fault() {
+        let same = grid(
+            "file = 'smoke.vol', size = [1, 1, 2], albedo = { file = 'smoke.vol', size = [1, 1, 2], channels = 1 }",
+        );
+        assert_eq!(same.unwrap().albedo.unwrap().values, [1.0, 0.0]);
+        let other = grid("file = 'smoke.raw', size = [2, 2, 1], albedo = { file = 'smoke.vol' }").unwrap();
+        assert_eq!(
+            other.albedo.unwrap().size,
+            [1, 1, 2],
+            "the density's size is the default of a bare file only"
+        );
     }
 
     #[test]
@@ -143,33 +182,26 @@ mod tests {
             ("file = 'none.raw', size = [4, 1, 1]", "there is no such file"),
             ("file = 'smoke.vol', sise = [1, 1, 1]", "did you mean 'size'"),
             (
+                "file = 'smoke.vol', size = [1, 2, 1]",
+                "`size` is [1, 2, 1], but 'smoke.vol' has [1, 1, 2] cells; remove `size`",
+            ),
+            (
+                "file = 'smoke.raw', size = [2, 2, 1], albedo = { file = 'smoke.vol', channels = 3 }",
+                "`channels` is 3, but the file has 1",
+            ),
+            (
+                "file = 'smoke.raw', size = [2, 2, 1], albedo = { file = 'smoke.vol', size = [2, 2, 1] }",
+                "`size` is [2, 2, 1], but 'smoke.vol' has [1, 1, 2] cells",
+            ),
+            ("file = 'smoke.vdb'", "OpenVDB grids can't be read"),
+            ("file = 'Smoke.NVDB', size = [2, 2, 1]", "NanoVDB grids can't be read"),
+            (
                 "file = 'smoke.vol', albedo = { file = 'smoke.raw', size = [4, 1, 1], channels = 1 }",
                 "from 0 to 1",
             ),
         ] {
             let error = grid(keys).unwrap_err().to_string();
             assert!(error.contains(message) && error.contains("a.toml:5"), "{keys}: {error}");
-        }
-    }
-
-    #[test]
-    fn measured_liquids_come_in_scene_units() {
-        let milk = load("measured = 'Whole Milk'\nconcentration = 0.5").unwrap();
-        let scattering = milk.scattering.unwrap();
-        assert_eq!(scattering.sigma_s, [1275.0, 1605.0, 1885.0]);
-        assert_eq!(scattering.phase, PhaseDescription::Isotropic);
-        let Absorption::SigmaA(sigma_a) = milk.absorption else { panic!("{:?}", milk.absorption) };
-        assert!((sigma_a[0] - 0.55).abs() < 1e-6 && (sigma_a[2] - 7.0).abs() < 1e-5, "{sigma_a:?}");
-        assert!(matches!(milk.index, IndexDescription::Named(name) if name.value == "water"));
-        let other = load("measured = 'merlot'\nior = 1.36\nsigma_s = 0").unwrap();
-        assert_eq!((other.index, other.scattering), (IndexDescription::Constant(1.36), None));
-        for (keys, message) in [
-            ("measured = 'wohle milk'", "the nearest is 'whole milk'"),
-            ("measured = 'merlot'\nconcentration = 0", "`concentration` must be above 0"),
-            ("concentration = 0.5", "unknown key `concentration`"),
-        ] {
-            let error = load(keys).unwrap_err().to_string();
-            assert!(error.contains(message) && error.contains("a.toml:"), "{keys}: {error}");
         }
     }
 

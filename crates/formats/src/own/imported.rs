@@ -8,7 +8,7 @@ use super::field::Field;
 use super::overrides;
 use super::scene::Reader;
 use super::table::Table;
-use super::{camera, film, medium, object, settings};
+use super::{camera, film, medium, object, references, settings};
 use crate::Result;
 use crate::assets::Assets;
 use crate::nearest::nearest;
@@ -39,7 +39,7 @@ pub(crate) fn override_imported(scene: &mut SceneDescription, overrides: &[(Stri
             let index = position("medium", field.key, source, names)?;
             let mut table = field.table(format!("medium '{}'", field.key))?;
             let old = scene.media[index].value.clone();
-            scene.media[index].value = medium::read(&mut table, 1.0, old, &assets)?;
+            scene.media[index].value = medium::read(&mut table, 1.0, old, &assets, &mut scene.notes)?;
             table.finish()?;
         }
     }
@@ -50,7 +50,9 @@ pub(crate) fn override_imported(scene: &mut SceneDescription, overrides: &[(Stri
             override_object(scene, index, field)?;
         }
     }
-    table.finish()
+    table.finish()?;
+    references::describe_liquids(scene, 1.0);
+    Ok(())
 }
 
 fn position<'a>(

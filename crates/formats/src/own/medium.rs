@@ -4,7 +4,8 @@
 //! `{ sellmeier = { b = [..], c = [..] } }` (micrometres). Absorption is one of `color = { rgb = .., at = "20 cm" }`,
 //! `filter` (per scene unit, above 0 and at most 1) and `sigma_a` (1 / scene unit). `sigma_s` scatters with mean
 //! cosine `g` or by `phase`: "isotropic", "rayleigh", `{ hg = g }` or `{ double = [g1, g2, share of the second] }`.
-//! `measured` names a liquid whose coefficients are known, `concentration` thins it (1); its index is that of water.
+//! `measured` names a liquid whose coefficients are known, `concentration` thins it (1); its index is that of water. What
+//! is known of it is (1 - g) σ_s, so that σ_s grows with `g`. `scale` multiplies absorption and scattering (1).
 //! `emission` is what the volume sends out by itself (W sr⁻¹ m⁻³), `grid` where it is how dense; `priority` decides
 //! where solids overlap.
 
@@ -14,23 +15,29 @@ use super::table::Table;
 use crate::Result;
 use crate::assets::Assets;
 use crate::limits::Limits;
-use crate::measured;
+use crate::nearest::nearest;
+use hyaline_scene::measured::{self, Measured};
 use hyaline_scene::{
-    Absorption, IndexDescription, Located, MediumDescription, PhaseDescription, Rgb, Scattering,
+    Absorption, IndexDescription, Located, MediumDescription, Note, PhaseDescription, Rgb, Scattering, Source,
 };
 
 /// Indices of refraction that exist or are worth trying.
 const IOR: Limits = Limits::above_to(0.0, 100.0);
 
-/// Reads a medium; keys that are absent keep what `base` has.
+/// Reads a medium; keys that are absent keep what `base` has. Doubts go to `notes`.
+///
+/// # Errors
+/// Numbers that no volume has, names that nothing bears, coefficients beyond `f32`.
 pub(super) fn read(
     table: &mut Table<'_>,
     metres: f64,
     base: MediumDescription,
     assets: &Assets,
+    notes: &mut Vec<Note>,
 ) -> Result<MediumDescription> {
-    let base = match table.take("measured") {
-        Some(field) => measured(field, table.take("concentration"), metres, base)?,
+    let measured = table.take("measured");
+    let base = match measured {
+        Some(field) => of_liquid(field, table.take("concentration"), metres, base)?,
         None => base,
     };
     let index = table.read("ior", base.index, index)?;
@@ -40,8 +47,16 @@ pub(super) fn read(
     };
     let isotropic = Scattering { sigma_s: [0.0; 3], phase: PhaseDescription::Isotropic };
     let old = base.scattering.clone().unwrap_or(isotropic);
-    let sigma_s = table.read("sigma_s", old.sigma_s, |field| field.color(Limits::NOT_NEGATIVE))?;
-    let phase = table.take_one(&["g", "phase"])?.map_or(Ok(old.phase), phase)?;
+    let phase_field = table.take_one(&["g", "phase"])?;
+    let phase = phase_field.map_or(Ok(old.phase), phase)?;
+    // What is measured is (1 - g) σ_s; by default g is 0.
+    let reduced = if measured.is_some() { 1.0 - phase.mean_cosine() } else { 1.0 };
+    let unreduced = old.sigma_s.map(|sigma| sigma / reduced);
+    let sigma_s = table.read("sigma_s", unreduced, |field| field.color(Limits::NOT_NEGATIVE))?;
+    let (absorption, sigma_s) = match table.take("scale") {
+        Some(field) => scaled(field, absorption, sigma_s)?,
+        None => (absorption, sigma_s),
+    };
     let emission = table.read("emission", base.emission, |field| field.color(Limits::NOT_NEGATIVE))?;
     let density = match table.take("grid") {
         Some(field) => Some(grid::read(field, metres, assets)?),
@@ -50,6 +65,13 @@ pub(super) fn read(
     // A grid of albedos scatters even where the coefficient is 0.
     let has_albedo = density.as_ref().is_some_and(|grid| grid.albedo.is_some());
     let scattering = (sigma_s != [0.0; 3] || has_albedo).then_some(Scattering { sigma_s, phase });
+    if let (Some(field), None) = (phase_field, &scattering) {
+        let message = format!(
+            "{} scatters nothing, so that its `{}` has no effect; give it `sigma_s`",
+            table.what, field.key
+        );
+        notes.push(Note::warning(field.source(), message));
+    }
     let priorities = (i64::from(i32::MIN), i64::from(i32::MAX));
     let priority =
         table.read("priority", i64::from(base.priority), |f| f.integer(priorities.0, priorities.1))?;
@@ -57,10 +79,42 @@ pub(super) fn read(
     Ok(MediumDescription { index, absorption, scattering, emission, density, priority, ..base })
 }
 
+/// Absorption and scattering, both multiplied by `scale`.
+fn scaled(scale: Field<'_>, absorption: Absorption, sigma_s: Rgb) -> Result<(Absorption, Rgb)> {
+    let factor = scale.number_f32(Limits::NOT_NEGATIVE)?;
+    let times = |sigma: Rgb| sigma.map(|sigma| sigma * factor);
+    let absorption = match absorption {
+        _ if factor == 0.0 => Absorption::None,
+        Absorption::None => Absorption::None,
+        Absorption::SigmaA(sigma_a) => Absorption::SigmaA(times(sigma_a)),
+        // The same color after a shorter way.
+        Absorption::Filter(color) => Absorption::ColorAt { color, distance: 1.0 / f64::from(factor) },
+        Absorption::ColorAt { color, distance } => {
+            Absorption::ColorAt { color, distance: distance / f64::from(factor) }
+        }
+    };
+    let sigma_s = times(sigma_s);
+    let sigma_a = if let Absorption::SigmaA(sigma_a) = absorption { sigma_a } else { [0.0; 3] };
+    if sigma_a.iter().chain(&sigma_s).any(|sigma| !sigma.is_finite()) {
+        let error = scale.error(format!("`scale` = {factor} makes the coefficients too large"));
+        return Err(error.with_remedy("lower `scale`, `sigma_a` or `sigma_s`"));
+    }
+    Ok((absorption, sigma_s))
+}
+
+/// A medium of nothing but a measured liquid, named like it; `None` where nothing is known of the name.
+///
+/// - `metres`: length of a scene unit.
+pub(super) fn by_liquid_name(name: &Located<String>, metres: f64) -> Option<MediumDescription> {
+    let liquid = measured::by_name(name)?;
+    let clear = MediumDescription::clear(name.value.clone(), IndexDescription::Constant(1.0));
+    Some(with_coefficients(liquid, 1.0, metres, &name.source, clear))
+}
+
 /// The coefficients of a liquid by its name.
 ///
 /// - `concentration`: share of it in water that absorbs nothing.
-fn measured(
+fn of_liquid(
     field: Field<'_>,
     concentration: Option<Field<'_>>,
     metres: f64,
@@ -68,22 +122,33 @@ fn measured(
 ) -> Result<MediumDescription> {
     let name = field.string()?;
     let Some(liquid) = measured::by_name(name) else {
-        let nearest = measured::nearest_name(name);
+        let nearest = nearest(name, measured::names()).unwrap_or_default();
         return Err(field
             .error(format!("nothing is known of '{name}'"))
             .with_remedy(format!("the nearest is '{nearest}'; docs/scene-format.md lists them all")));
     };
     let share = concentration.map_or(Ok(1.0), |field| field.number(Limits::above_to(0.0, 1.0)))?;
+    Ok(with_coefficients(liquid, share, metres, field.source(), base))
+}
+
+/// What is known of a liquid, and the rest of `base`.
+fn with_coefficients(
+    liquid: &Measured,
+    share: f64,
+    metres: f64,
+    source: &Source,
+    base: MediumDescription,
+) -> MediumDescription {
     // The table is in 1/mm.
     let factor = (share * metres / 1e-3) as f32;
-    let scaled = |sigma: Rgb| sigma.map(|sigma| sigma * factor);
-    Ok(MediumDescription {
-        index: IndexDescription::Named(Located::new("water".to_owned(), field.source().clone())),
-        absorption: Absorption::SigmaA(scaled(liquid.sigma_a)),
+    let times = |sigma: Rgb| sigma.map(|sigma| sigma * factor);
+    MediumDescription {
+        index: IndexDescription::Named(Located::new("water".to_owned(), source.clone())),
+        absorption: Absorption::SigmaA(times(liquid.sigma_a)),
         // Reduced coefficients go with an isotropic phase function.
-        scattering: Some(Scattering { sigma_s: scaled(liquid.sigma_s), phase: PhaseDescription::Isotropic }),
+        scattering: Some(Scattering { sigma_s: times(liquid.sigma_s), phase: PhaseDescription::Isotropic }),
         ..base
-    })
+    }
 }
 
 /// `g`, or a phase function by name or as a table.

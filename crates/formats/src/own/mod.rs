@@ -31,6 +31,8 @@ mod vessel;
 #[cfg(test)]
 mod material_tests;
 #[cfg(test)]
+mod medium_tests;
+#[cfg(test)]
 mod tests;
 
 pub(crate) use film::{MAX_PIXELS, MAX_SIDE, TENT_RADIUS};

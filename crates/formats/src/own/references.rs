@@ -1,6 +1,8 @@
-//! What a description refers to without having described it: implicit materials, air and vacuum.
+//! What a description refers to without having described it: implicit materials, measured liquids, air and vacuum.
 
+use super::medium;
 use crate::Result;
+use hyaline_scene::measured::is_same_name;
 use hyaline_scene::{
     BoundaryDescription, IndexDescription, Located, MaterialDescription, MediumDescription, SceneDescription,
     SceneError, ShapeDescription, Source,
@@ -30,12 +32,50 @@ pub(crate) fn add_material(
     name
 }
 
+/// Describes the media that a scene names without describing them and that bear the name of a measured liquid. A name
+/// that differs from a described one by its spelling alone is left as it is: it is a slip.
+///
+/// - `metres`: length of a scene unit.
+pub(super) fn describe_liquids(scene: &mut SceneDescription, metres: f64) {
+    let mut added: Vec<Located<MediumDescription>> = Vec::new();
+    for name in named_media(scene) {
+        let mut described = scene.media.iter().chain(&added);
+        if !described.any(|medium| is_same_name(&medium.name, name)) {
+            let liquid = medium::by_liquid_name(name, metres);
+            added.extend(liquid.map(|liquid| Located::new(liquid, name.source.clone())));
+        }
+    }
+    scene.media.extend(added);
+}
+
+/// Every name of a medium that is said outside of the descriptions of media.
+fn named_media(scene: &SceneDescription) -> Vec<&Located<String>> {
+    let mut names: Vec<&Located<String>> = scene.surrounding.iter().collect();
+    for object in &scene.objects {
+        match &object.boundary {
+            BoundaryDescription::Interface { outside, inside } => names.extend(outside.iter().chain(inside)),
+            BoundaryDescription::Solid { medium } => names.push(medium),
+            BoundaryDescription::None => {}
+        }
+        if let ShapeDescription::Vessel(vessel) = &object.shape {
+            names.push(&vessel.medium);
+            names.extend(vessel.fill.iter().map(|layer| &layer.medium));
+        }
+    }
+    names.extend(scene.cameras.iter().filter_map(|camera| camera.medium.as_ref()));
+    names.extend(scene.lights.iter().filter_map(|light| light.medium.as_ref()));
+    names
+}
+
 /// Resolves `air` and `vacuum` where the scene does not describe them: as the world's medium where that is vacuum
-/// and may be left out, else as a medium of index 1 that is added.
+/// and may be left out, else as a medium of index 1 that is added. Describes measured liquids.
+///
+/// - `metres`: length of a scene unit.
 ///
 /// # Errors
 /// An object named like another.
-pub(super) fn complete(scene: &mut SceneDescription) -> Result<()> {
+pub(super) fn complete(scene: &mut SceneDescription, metres: f64) -> Result<()> {
+    describe_liquids(scene, metres);
     let described: Vec<String> = scene.media.iter().map(|medium| medium.name.clone()).collect();
     let is_vacuum = |name: &str| VACUUM.contains(&name) && !described.iter().any(|medium| medium == name);
     if scene.surrounding.as_ref().is_some_and(|name| is_vacuum(name)) {

@@ -77,7 +77,7 @@ impl<'a> Reader<'a> {
         if !self.faults.is_empty() {
             return Err(self.faults);
         }
-        references::complete(&mut self.scene).map_err(|fault| vec![fault])?;
+        references::complete(&mut self.scene, self.metres).map_err(|fault| vec![fault])?;
         require_something(&self.scene, &root.source).map_err(|fault| vec![fault])?;
         Ok(self.scene)
     }
@@ -184,7 +184,7 @@ impl<'a> Reader<'a> {
 
     fn medium_entry(&mut self, mut table: Table<'_>, name: Located<String>) -> Result<()> {
         let clear = MediumDescription::clear(name.value, IndexDescription::Constant(1.0));
-        let medium = medium::read(&mut table, self.metres, clear, self.assets)?;
+        let medium = medium::read(&mut table, self.metres, clear, self.assets, &mut self.scene.notes)?;
         table.finish()?;
         self.scene.media.push(Located::new(medium, name.source));
         Ok(())

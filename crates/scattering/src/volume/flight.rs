@@ -78,12 +78,13 @@ impl Flyer {
         let strongest = collision_rate(medium, line.range[1] - line.range[0]);
         for Stretch { range, majorant } in grid.majorants().along(line) {
             let rate = majorant * strongest;
-            let mut t = range[0];
+            let mut way = 0.0;
             loop {
-                t += next_step(rate, &mut rng);
-                if t >= range[1] {
+                way += next_step(rate, &mut rng);
+                if way >= range[1] - range[0] {
                     break;
                 }
+                let t = range[0] + way;
                 let density = grid.density_in_cube(line.origin + line.direction * t);
                 if density > 0.0 {
                     let scattering = medium.sigma_s_at(ray.at(t), density) * (1.0 / rate);

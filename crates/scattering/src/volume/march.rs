@@ -207,12 +207,13 @@ impl Gridded<'_> {
         for Stretch { range, majorant } in self.grid.majorants().along(line) {
             // Ratio tracking needs a station for every possible collision.
             let rate = stations.max(1.0) * majorant * strongest;
-            let mut t = range[0];
+            let mut way = 0.0;
             loop {
-                t += next_step(rate, rng);
-                if t >= range[1] {
+                way += next_step(rate, rng);
+                if way >= range[1] - range[0] {
                     break;
                 }
+                let t = range[0] + way;
                 let density = self.grid.density_in_cube(line.origin + line.direction * t);
                 self.stop_at(t, density, 1.0 / rate, visit);
                 self.left *= Spectrum::ONE + self.medium.sigma_t() * (-density / rate);

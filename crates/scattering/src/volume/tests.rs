@@ -307,3 +307,14 @@ fn marches_end_where_a_lane_is_clear_and_the_way_endless() {
         assert_eq!(marched.transmittance.to_lanes()[..3], [0.0, 1.0, 0.0]);
     }
 }
+
+#[test]
+fn steps_that_are_small_beside_the_way_to_a_grid_come_to_an_end() {
+    // A million possible collisions, each of a 64th of what separates two distances from a thousand on.
+    let grid = Grid::new([2, 1, 1], vec![1e-9, 1e6], None, &Transform::IDENTITY);
+    let medium = Medium { sigma_s: Spectrum::ONE, grid: Some(Arc::new(grid)), ..Medium::VACUUM };
+    let from_afar = Ray::new(Vec3::new(0.1, -1000.0, 0.5), Vec3::Y);
+    assert_eq!(transmittance(&medium, &from_afar, 2000.0).to_lanes()[0], 1.0);
+    let flight = flyers(&mut Random::from_seed(5), Spectrum::ONE).fly(&medium, &from_afar, 2000.0);
+    assert_eq!(flight.scatters_at, None);
+}

@@ -44,12 +44,13 @@ fn ratio_tracking(sigma_t: Spectrum, grid: &Grid, ray: &Ray, distance: f32, rng:
     let strongest = sigma_t.to_lanes().into_iter().fold(0.0, f32::max);
     for Stretch { range, majorant } in grid.majorants().along(line) {
         let rate = majorant * strongest;
-        let mut t = range[0];
+        let mut way = 0.0;
         loop {
-            t += next_step(rate, rng);
-            if t >= range[1] {
+            way += next_step(rate, rng);
+            if way >= range[1] - range[0] {
                 break;
             }
+            let t = range[0] + way;
             let density = grid.density_in_cube(line.origin + line.direction * t);
             left *= Spectrum::ONE + sigma_t * (-density / rate);
             let most = left.to_lanes().into_iter().fold(0.0, f32::max);
@@ -64,7 +65,8 @@ fn ratio_tracking(sigma_t: Spectrum, grid: &Grid, ray: &Ray, distance: f32, rng:
     left
 }
 
-/// Distance to the next possible collision; infinite where there is none.
+/// Distance to the next possible collision; infinite where there is none. It is to be added to a way that starts at 0 where
+/// the stretch does: beside a distance from far away it could vanish, and the way would never end.
 ///
 /// - `rate`: possible collisions per unit of length, ≥ 0.
 pub(super) fn next_step(rate: f32, rng: &mut Rng) -> f32 {

@@ -1,6 +1,7 @@
 //! Media: from names and colors to indices and coefficients in lanes.
 
 use super::names::nearest;
+use hyaline_math::DVec3;
 use hyaline_optics::attenuation;
 use hyaline_optics::dispersion::{Abbe, Cauchy, IndexModel, Sellmeier};
 use hyaline_scattering::volume::{AlbedoGrid, Grid};
@@ -12,10 +13,16 @@ use hyaline_scene::{
 use hyaline_spectrum::{Spectrum, catalogue};
 use std::sync::Arc;
 
+/// Most mean free paths through a grid. Beyond it, steps from one possible collision to the next vanish beside the distances
+/// that they are added to, and no path ends.
+const MOST_FREE_PATHS: f64 = 1e7;
+/// Possible collisions on the way through a grid of density 1 that shines: the least that tracking takes there.
+const STEPS_OF_LIGHT: f64 = 4.0;
+
 /// Compiles a medium.
 ///
 /// # Errors
-/// An index name that the catalogue lacks, coefficients that cannot be.
+/// An index name that the catalogue lacks, coefficients that cannot be, a grid that is too dense to follow light in.
 pub(super) fn compile(description: &Located<MediumDescription>) -> Result<Medium, SceneError> {
     let ior = index(description)?;
     if !(ior.is_finite() && ior > 0.0) {
@@ -33,10 +40,21 @@ pub(super) fn compile(description: &Located<MediumDescription>) -> Result<Medium
             );
         }
     }
+    let extinction: Rgb = std::array::from_fn(|i| sigma_a[i] + sigma_s[i]);
+    if !extinction.iter().all(|sigma| sigma.is_finite()) {
+        let message = format!(
+            "medium '{}' has absorption {sigma_a:?} and scattering {sigma_s:?}, whose sum is not finite",
+            description.name
+        );
+        return Err(SceneError::at(&description.source, message).with_remedy("lower its coefficients"));
+    }
     let phase = match &description.scattering {
         Some(scattering) => phase(description, &scattering.phase)?,
         None => Phase::Isotropic,
     };
+    if let Some(grid) = &description.density {
+        check_depth(description, grid, extinction)?;
+    }
     let (sigma_a, sigma_s) = (Spectrum::from_rgb(sigma_a), Spectrum::from_rgb(sigma_s));
     let emission = Spectrum::from_rgb(description.emission);
     let grid = description.density.as_ref().map(|density| grid(description, density)).transpose()?;
@@ -74,6 +92,41 @@ fn grid(description: &Located<MediumDescription>, grid: &DensityGrid) -> Result<
         }
     };
     Ok(Grid::new(grid.density.size, density, albedo, &grid.placement))
+}
+
+/// # Errors
+/// More mean free paths along the diagonal of the grid's box than tracking can take.
+fn check_depth(
+    description: &Located<MediumDescription>,
+    grid: &DensityGrid,
+    extinction: Rgb,
+) -> Result<(), SceneError> {
+    let densest = grid.density.values.iter().fold(0.0_f32, |a, &b| a.max(b));
+    let strongest = extinction.into_iter().fold(0.0, f32::max);
+    let diagonal = diagonal(grid);
+    let shines = description.emission != [0.0; 3];
+    let least = if shines { STEPS_OF_LIGHT } else { 0.0 };
+    let free_paths = f64::from(densest) * (f64::from(strongest) * diagonal).max(least);
+    if (densest * strongest).is_finite() && free_paths <= MOST_FREE_PATHS {
+        return Ok(());
+    }
+    let message = format!(
+        "the grid of medium '{}' is too dense to follow light in: {free_paths:.1e} mean free paths along the diagonal of its \
+         box ({diagonal:.3e}), where the density is {densest:e} and the coefficients add up to {strongest:e}; at most \
+         {MOST_FREE_PATHS:e} can be",
+        description.name
+    );
+    Err(SceneError::at(&description.source, message).with_remedy(
+        "lower the densities, the coefficients or `scale`, or make what is that dense a solid with a surface",
+    ))
+}
+
+/// Longest diagonal of the box of a grid, scene units.
+fn diagonal(grid: &DensityGrid) -> f64 {
+    let length = |y: f64, z: f64| grid.placement.vector(DVec3::new(1.0, y, z)).length();
+    [length(1.0, 1.0), length(1.0, -1.0), length(-1.0, 1.0), length(-1.0, -1.0)]
+        .into_iter()
+        .fold(0.0, f64::max)
 }
 
 /// # Errors
@@ -146,3 +199,7 @@ fn absorption(description: &MediumDescription) -> Result<Rgb, SceneError> {
         }
     })
 }
+
+#[cfg(test)]
+#[path = "media_tests.rs"]
+mod tests;

@@ -29,7 +29,7 @@ pub(crate) use shapes::is_open;
 use faults::Faults;
 use hyaline_geometry::Aggregate;
 use hyaline_scattering::{Boundaries, Medium, MediumId};
-use hyaline_scene::{Located, Note, SceneDescription, SceneError, Severity};
+use hyaline_scene::{Located, Note, SceneDescription, SceneError, Severity, measured};
 use hyaline_spectrum::Spectrum;
 use names::Names;
 
@@ -49,7 +49,8 @@ impl<'a> Library<'a> {
     fn new(description: &'a SceneDescription) -> Self {
         Self {
             description,
-            media: Names::new("medium", description.media.iter().map(|m| m.name.as_str())),
+            media: Names::new("medium", description.media.iter().map(|m| m.name.as_str()))
+                .suggesting(measured::names()),
             materials: Names::new("material", description.materials.iter().map(|m| m.name.as_str())),
             textures: Names::new("texture", description.textures.iter().map(|t| t.name.as_str())),
             objects: Names::new("object", description.objects.iter().map(|o| o.name.as_str())),

@@ -7,12 +7,19 @@ use std::collections::HashMap;
 pub(super) struct Names<'a> {
     kind: &'static str,
     indices: HashMap<&'a str, usize>,
+    /// Names that the reader of the scene would have known without a description.
+    implicit: Vec<&'static str>,
 }
 
 impl<'a> Names<'a> {
     /// Collects names in order; `kind` is what messages call such a thing.
     pub(super) fn new(kind: &'static str, names: impl Iterator<Item = &'a str>) -> Self {
-        Self { kind, indices: names.enumerate().map(|(i, name)| (name, i)).collect() }
+        Self { kind, indices: names.enumerate().map(|(i, name)| (name, i)).collect(), implicit: Vec::new() }
+    }
+
+    /// The same, suggesting these names, too.
+    pub(super) fn suggesting(self, implicit: impl Iterator<Item = &'static str>) -> Self {
+        Self { implicit: implicit.collect(), ..self }
     }
 
     /// The index of the thing named `name`.
@@ -24,7 +31,7 @@ impl<'a> Names<'a> {
             return Ok(index);
         }
         let error = SceneError::at(&name.source, format!("no {} is named '{}'", self.kind, name.value));
-        Err(match nearest(&name.value, self.indices.keys().copied()) {
+        Err(match nearest(&name.value, self.indices.keys().copied().chain(self.implicit.iter().copied())) {
             Some(candidate) => error.with_remedy(format!("did you mean '{candidate}'?")),
             None => error.with_remedy(format!("the scene has no {} at all: add one", self.kind)),
         })

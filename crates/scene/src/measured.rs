@@ -1,4 +1,5 @@
-//! Measured coefficients of liquids and a few solids, by name: the one table for all formats.
+//! Measured coefficients of liquids and a few solids, by name: the one table for all formats. A medium that bears such a
+//! name needs no description.
 //!
 //! In 1/mm, at the red, green and blue of the cameras that measured them. The scattering is *reduced*, (1 - g) σ_s: it goes
 //! with an isotropic phase function. Powders are those of a solution as it was measured; `concentration` thins it.
@@ -7,18 +8,17 @@
 //! (the first twelve); Narasimhan, Gupta, Donner, Ramamoorthi, Nayar & Jensen, Acquiring Scattering Properties of
 //! Participating Media by Dilution, SIGGRAPH 2006 (the rest), as tabulated in pbrt-v4, src/pbrt/media.cpp.
 
-use crate::nearest::nearest;
-use hyaline_scene::Rgb;
+use crate::Rgb;
 
 /// What was measured.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Measured {
+pub struct Measured {
     /// Name in our words.
-    pub(crate) name: &'static str,
+    pub name: &'static str,
     /// Reduced scattering coefficient, 1/mm.
-    pub(crate) sigma_s: Rgb,
+    pub sigma_s: Rgb,
     /// Absorption coefficient, 1/mm.
-    pub(crate) sigma_a: Rgb,
+    pub sigma_a: Rgb,
 }
 
 const fn row(name: &'static str, sigma_s: Rgb, sigma_a: Rgb) -> Measured {
@@ -26,7 +26,7 @@ const fn row(name: &'static str, sigma_s: Rgb, sigma_a: Rgb) -> Measured {
 }
 
 /// Everything that is known.
-pub(crate) const ALL: [Measured; 47] = [
+pub const ALL: [Measured; 47] = [
     row("apple", [2.29, 2.39, 1.97], [0.0030, 0.0034, 0.046]),
     row("chicken1", [0.15, 0.21, 0.38], [0.015, 0.077, 0.19]),
     row("chicken2", [0.19, 0.25, 0.32], [0.018, 0.088, 0.20]),
@@ -76,18 +76,34 @@ pub(crate) const ALL: [Measured; 47] = [
     row("pacific ocean surface water", [0.0001764, 0.00032095, 0.00019617], [0.031845, 0.031324, 0.030147]),
 ];
 
+/// What everyday words stand for.
+pub const ALIASES: [(&str, &str); 6] = [
+    ("milk", "whole milk"),
+    ("beer", "budweiser beer"),
+    ("wine", "merlot"),
+    ("juice", "apple juice"),
+    ("coffee", "espresso"),
+    ("sea water", "pacific ocean surface water"),
+];
+
 /// What bears this name; case, spaces and signs don't count.
-pub(crate) fn by_name(name: &str) -> Option<&'static Measured> {
+pub fn by_name(name: &str) -> Option<&'static Measured> {
+    let alias = ALIASES.iter().find(|(word, _)| is_same_name(word, name));
+    let wanted = alias.map_or(name, |(_, meant)| meant);
+    ALL.iter().find(|measured| is_same_name(measured.name, wanted))
+}
+
+/// Whether two spellings are one name: case, spaces and signs don't count.
+pub fn is_same_name(a: &str, b: &str) -> bool {
     let plain = |name: &str| -> String {
         name.chars().filter(char::is_ascii_alphanumeric).map(|c| c.to_ascii_lowercase()).collect()
     };
-    let wanted = plain(name);
-    ALL.iter().find(|measured| plain(measured.name) == wanted)
+    plain(a) == plain(b)
 }
 
-/// The name that is most like one that nothing bears.
-pub(crate) fn nearest_name(name: &str) -> &'static str {
-    nearest(name, ALL.iter().map(|measured| measured.name)).unwrap_or(ALL[0].name)
+/// Every name that [`by_name`] finds, each in one spelling.
+pub fn names() -> impl Iterator<Item = &'static str> {
+    ALIASES.iter().map(|(word, _)| *word).chain(ALL.iter().map(|measured| measured.name))
 }
 
 #[cfg(test)]
@@ -101,7 +117,16 @@ mod tests {
         assert_eq!(sigma_s("Whole milk"), sigma_s("wholemilk"));
         assert_eq!(sigma_s("Head & Shoulders Shampoo"), sigma_s("headshouldersshampoo"));
         assert_eq!(sigma_s("holy water"), None);
-        assert_eq!(nearest_name("wohle milk"), "whole milk");
+    }
+
+    #[test]
+    fn everyday_words_stand_for_what_was_measured() {
+        for (word, meant) in ALIASES {
+            assert_eq!(by_name(word).map(|measured| measured.name), Some(meant));
+        }
+        assert_eq!(by_name("Seawater"), by_name("pacific ocean surface water"));
+        let names: Vec<&str> = names().collect();
+        assert!(names.len() == 53 && names.iter().all(|name| by_name(name).is_some()), "{names:?}");
     }
 
     #[test]
