@@ -28,7 +28,9 @@ pub(super) fn ball_over_part(
 ) -> f32 {
     let lies_within = |draws: &mut Draws<'_>| {
         let direction = warp::sample_sphere(draws.sampler.next_2d());
-        let distance = radius * draws.sampler.next_1d().cbrt();
+        // The largest of three is distributed as distances in a ball are.
+        let (u, v) = (draws.sampler.next_2d(), draws.sampler.next_1d());
+        let distance = radius * u.max_element().max(v);
         let ray = Ray { t_max: distance, ..Ray::new(p, direction) };
         end_of_medium(world, ray, set, &mut draws.stats.rays).is_none()
     };
