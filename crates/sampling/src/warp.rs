@@ -77,6 +77,13 @@ pub fn pdf_sphere() -> f32 {
     0.5 / TAU
 }
 
+/// Uniform point of the unit ball.
+///
+/// - `u`: for the direction; `v`: three uniform numbers in [0, 1), the largest of which is distributed as distances are.
+pub fn sample_ball(u: Vec2, v: Vec3) -> Vec3 {
+    sample_sphere(u) * v.max_element()
+}
+
 /// Uniform direction of the upper hemisphere.
 pub fn sample_hemisphere(u: Vec2) -> Vec3 {
     sample_cone(u, 1.0)

@@ -7,6 +7,9 @@ use hyaline_world::{World, mask};
 /// Boundaries of no effect that are crossed along one ray, at most.
 const MOST_CROSSINGS: u32 = 16;
 
+/// Least share of what is gathered from that counts as within: a place squeezed between walls must not shine without bound.
+pub(crate) const LEAST_SHARE: f32 = 0.05;
+
 /// Where the medium ends along a ray, before the ray's end: the distance, the place and the normal there.
 ///
 /// - `set`: what the ray's origin is in.

@@ -1,8 +1,10 @@
 //! `merging` against `path`: where the radius is small the two are one, whatever the light has gone through.
 
+mod fog_kit;
 mod pictures;
 mod scene_kit;
 
+use fog_kit::{grid, volume};
 use hyaline_math::DVec3;
 use hyaline_scene::*;
 use hyaline_testkit::Moments;
@@ -13,9 +15,9 @@ use scene_kit::*;
 use std::ops::Range;
 
 /// Relative error of the difference above which nothing would be shown.
-const POWER: f64 = 0.01;
+const POWER: f64 = 0.006;
 /// The same where few photons and few paths carry much of the light.
-const POWER_UNDER_WATER: f64 = 0.012;
+const POWER_UNDER_WATER: f64 = 0.009;
 /// Passes so late that their radius is a fortieth of the first one's: with pixels as large as these, blur would carry
 /// light across edges, out of the glass that it is in.
 const LATE: Range<u32> = 4_000_000..4_000_012;
@@ -167,6 +169,28 @@ fn in_fog_photons_and_paths_agree() {
     let mut kit = hollow(lamp_ball);
     fog(&mut kit);
     assert_as_path(&kit.world(), POWER, "fog");
+}
+
+#[test]
+fn media_are_as_bright_at_their_skin_as_within() {
+    // The first passes, whose kernels are a quarter of the ball: what lies beyond its skin must not count as dark.
+    for is_grid in [false, true] {
+        let mut kit = SceneKit::new();
+        volume(&mut kit, "milk", 1.333, [0.0; 3], [3.0; 3], 0.0);
+        if is_grid {
+            grid(&mut kit, DVec3::splat(-1.0), DVec3::ONE, |_| 1.0);
+        }
+        kit.solid("ball", sphere(DVec3::ZERO, 0.9), "milk");
+        kit.sky(1.0).camera(DVec3::Z * 4.0, DVec3::ZERO);
+        kit.description.cameras[0].projection = Projection::Perspective { fov: 0.4, fov_axis: FovAxis::Y };
+        let mean = known_to(0.006, 0, |seed| {
+            let settings = RenderSettings { seed, ..settings() };
+            Shot { world: &kit.world(), integrator: "merging", settings, size: (12, 12) }.mean(0..24)
+        });
+        let error = mean.variance_of_mean().sqrt();
+        println!("grid {is_grid}: {} ± {error}, {} pictures", mean.mean(), mean.count());
+        assert!((mean.mean() - 1.0).abs() < 3.0 * error + 0.002, "grid {is_grid}: {} ± {error}", mean.mean());
+    }
 }
 
 #[test]

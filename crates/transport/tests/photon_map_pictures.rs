@@ -13,7 +13,7 @@ use pictures::{Shot, assert_same, known_to};
 use scene_kit::*;
 
 /// Relative error of a difference above which nothing would be shown.
-const POWER: f64 = 0.018;
+const POWER: f64 = 0.012;
 
 /// Mean of a picture over `passes` passes, for as many seeds as that takes, each with maps of its own.
 fn means(world: &World, integrator: &str, photon_map: PhotonMapSettings, passes: u32) -> Moments {

@@ -66,6 +66,19 @@ fn disc_points_are_uniform() {
 }
 
 #[test]
+fn ball_points_are_uniform() {
+    let mut rng = Rng::new(8, 0);
+    let draw = || {
+        let p = sample_ball(rng.uniform_2d(), rng.uniform_2d().extend(rng.uniform()));
+        // By volume within its distance, and by the height that a sphere's area is uniform in.
+        let r = f64::from(p.length());
+        [(r * r * r).min(1.0 - 1e-9), (0.5 + 0.5 * f64::from(p.z) / r).clamp(0.0, 1.0 - 1e-9)]
+    };
+    let result = chi_square_square(draw, |_| 1.0, 200_000, 24, 24);
+    assert!(result.p_value > 0.001, "{result:?}");
+}
+
+#[test]
 fn triangle_points_are_uniform() {
     let mut rng = Rng::new(7, 0);
     let draw = || {

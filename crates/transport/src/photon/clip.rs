@@ -6,15 +6,12 @@
 //! tangent plane, are left out.
 
 use super::kernel::Kernel;
-use crate::extent::end_of_medium;
+use crate::extent::{LEAST_SHARE, end_of_medium};
 use crate::stats::Stats;
 use hyaline_math::{Frame, Ray, Vec2, Vec3, float};
 use hyaline_sampling::warp;
 use hyaline_scattering::MediumSet;
 use hyaline_world::World;
-
-/// Least share of a ball: a place squeezed between walls must not shine without bound.
-const LEAST_SHARE: f32 = 0.05;
 
 /// What of a ball counts.
 #[derive(Clone, Debug)]

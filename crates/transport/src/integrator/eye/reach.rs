@@ -16,7 +16,7 @@ const FLAT: f32 = 0.7;
 const LIFT: f32 = 0.5;
 /// How far tries look, over the way to the plane: surfaces bend.
 const BEYOND: f32 = 1.5;
-/// Tries, at most: a little dark is left in corners of less than a quarter of the disc.
+/// Tries, at most: a little dark is left where the part is less than a quarter of the whole.
 const MOST_TRIES: u32 = 8;
 /// Polished surfaces that a try looks through, at most.
 const MOST_HIDING: u32 = 6;
@@ -70,5 +70,12 @@ pub(super) fn disc_over_part(
         }
         false
     };
-    (1..MOST_TRIES).find(|_| lies_on_it(draws)).unwrap_or(MOST_TRIES) as f32
+    whole_over_part(|| lies_on_it(draws))
+}
+
+/// An estimate of a whole over its part, ≥ 1: points of the whole that are drawn until one lies in the part.
+///
+/// - `lies_in_part`: draws a point, uniform, and tells.
+pub(super) fn whole_over_part(mut lies_in_part: impl FnMut() -> bool) -> f32 {
+    (1..MOST_TRIES).find(|_| lies_in_part()).unwrap_or(MOST_TRIES) as f32
 }

@@ -2,22 +2,18 @@
 //! rest none. Without a mend, milk would be darker along its skin, by as much as half of what is gathered there.
 
 use super::Draws;
-use crate::extent::end_of_medium;
+use super::reach::whole_over_part;
+use crate::extent::{LEAST_SHARE, end_of_medium};
 use hyaline_math::{Ray, Vec3};
 use hyaline_sampling::warp;
 use hyaline_scattering::MediumSet;
 use hyaline_world::World;
 
-/// Tries, at most: a little dark is left where less than a quarter of a ball lies in the medium.
-const MOST_TRIES: u32 = 8;
 /// How near to an end of its stretch a ray passes a beam where the boundary may be within the radius, in radii. A boundary
 /// that comes as near, far from both ends, is one that the ray grazes.
 const NEAR_AN_END: f32 = 8.0;
-/// Least share of a kernel's width: a place squeezed between walls must not shine without bound.
-const LEAST_SHARE: f32 = 0.05;
 
-/// An estimate of the ball about a place over the part of it that lies within the medium, ≥ 1: the mean number of points
-/// drawn until one lies there.
+/// An estimate of the ball about a place over the part of it that lies within the medium, ≥ 1.
 ///
 /// - `set`: what `p` is in.
 pub(super) fn ball_over_part(
@@ -26,15 +22,12 @@ pub(super) fn ball_over_part(
     set: &MediumSet,
     draws: &mut Draws<'_>,
 ) -> f32 {
-    let lies_within = |draws: &mut Draws<'_>| {
-        let direction = warp::sample_sphere(draws.sampler.next_2d());
-        // The largest of three is distributed as distances in a ball are.
-        let (u, v) = (draws.sampler.next_2d(), draws.sampler.next_1d());
-        let distance = radius * u.max_element().max(v);
-        let ray = Ray { t_max: distance, ..Ray::new(p, direction) };
+    whole_over_part(|| {
+        let v = draws.sampler.next_2d().extend(draws.sampler.next_1d());
+        let way = warp::sample_ball(draws.sampler.next_2d(), v) * radius;
+        let ray = Ray { t_max: way.length(), ..Ray::new(p, way.normalize_or(Vec3::Z)) };
         end_of_medium(world, ray, set, &mut draws.stats.rays).is_none()
-    };
-    (1..MOST_TRIES).find(|_| lies_within(draws)).unwrap_or(MOST_TRIES) as f32
+    })
 }
 
 /// Whether a beam that is passed at `on_ray` may be cut off by an end of the stretch `0..way`.
