@@ -106,12 +106,7 @@ fn a_grid_of_albedo_one_swallows_nothing_whatever_the_coefficients_say() {
         let mut kit = SceneKit::new();
         volume(&mut kit, "smoke", ior, [2.0, 0.5, 0.0], [0.0, 2.0, 3.0], 0.3);
         let (min, max) = (DVec3::new(-0.6, -0.5, -0.4), DVec3::new(0.6, 0.5, 0.4));
-        grid(
-            &mut kit,
-            min,
-            max,
-            |[x, y, z]| if x < 4 { 0.0 } else { ((x * 7 + y * 3 + z) % 11) as f32 * 0.2 },
-        );
+        grid(&mut kit, min, max, uneven);
         let white = GridData { size: [2, 3, 2], channels: 3, values: vec![1.0; 36] };
         let medium = kit.description.media.last_mut().unwrap();
         medium.density.as_mut().unwrap().albedo = Some(Arc::new(white));

@@ -30,6 +30,11 @@ pub fn grid(kit: &mut SceneKit, min: DVec3, max: DVec3, density: impl Fn([u32; 3
     kit.description.media.last_mut().unwrap().density = Some(density);
 }
 
+/// Densities that change from cell to cell, a third of them 0.
+pub fn uneven([x, y, z]: [u32; 3]) -> f32 {
+    if x < 4 { 0.0 } else { ((x * 7 + y * 3 + z) % 11) as f32 * 0.2 }
+}
+
 pub const SIGMA_A: Rgb = [0.1, 0.4, 0.0];
 pub const SIGMA_S: Rgb = [0.2, 0.9, 0.5];
 pub const G: f32 = 0.55;

@@ -2,7 +2,8 @@
 
 use super::merges::{Beyond, Passed, Place};
 use super::radius::GatherRadius;
-use super::{Draws, Eye, Path, weight, within};
+use super::within::{self, LEAST_DENSITY, Part};
+use super::{Draws, Eye, Path, weight};
 use crate::direct::LastScatter;
 use crate::in_volume::{self, VolumeLight};
 use crate::integrator::merging::{BEAM_SHARE, Photons};
@@ -78,14 +79,12 @@ impl Eye<'_> {
     ) -> Spectrum {
         let medium = &self.world.media[place.medium.index()];
         let radius = photons.radius.in_volume(place.p);
-        // Photons count what they scatter; what the path scatters is in its throughput already.
-        let density = medium.density(place.p);
-        let sigma_s = (medium.sigma_s * density).map(|sigma| if sigma > 0.0 { 1.0 / sigma } else { 0.0 });
-        let carried = path.throughput * sigma_s * (1.0 / (4.0 / 3.0 * PI * radius * radius * radius));
+        let part = Part { medium, least_density: medium.density(place.p) * LEAST_DENSITY };
+        let carried = path.throughput * (1.0 / (4.0 / 3.0 * PI * radius * radius * radius));
         let points = self.points_about(path, place, photons);
         let left = self.bounces_left(path);
         let light = photons.landed.volume(place.p, radius, |photon| {
-            if photon.bounces >= left {
+            if photon.bounces >= left || photon.density < part.least_density {
                 return Spectrum::ZERO;
             }
             let phase = medium.phase.value(wo, -photon.direction);
@@ -96,7 +95,7 @@ impl Eye<'_> {
         if light.is_zero() {
             return light;
         }
-        light * within::ball_over_part(self.world, (place.p, radius), &path.set, draws)
+        light * within::ball_over_part(self.world, (place.p, radius), (&path.set, &part), draws)
     }
 
     /// What weights of photons about a particle have in common.

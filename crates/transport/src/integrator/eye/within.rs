@@ -1,32 +1,44 @@
 //! Where a medium ends, what is gathered from reaches beyond its boundary: what of it lies within holds photons, the
-//! rest none. Without a mend, milk would be darker along its skin, by as much as half of what is gathered there.
+//! rest none. Without a mend, milk would be darker along its skin, by as much as half of what is gathered there. Where smoke
+//! is thin, few photons tell of the light, each of them loudly: what is much thinner than the place is left out, too.
 
 use super::Draws;
 use super::reach::whole_over_part;
 use crate::extent::{LEAST_SHARE, end_of_medium};
 use hyaline_math::{Ray, Vec3};
 use hyaline_sampling::warp;
-use hyaline_scattering::MediumSet;
+use hyaline_scattering::{Medium, MediumSet};
 use hyaline_world::World;
 
 /// How near to an end of its stretch a ray passes a beam where the boundary may be within the radius, in radii. A boundary
 /// that comes as near, far from both ends, is one that the ray grazes.
 const NEAR_AN_END: f32 = 8.0;
 
-/// An estimate of the ball about a place over the part of it that lies within the medium, ≥ 1.
+/// Density of what is gathered from over that of the place, at least.
+pub(super) const LEAST_DENSITY: f32 = 1.0 / 8.0;
+
+/// What a place in a medium with a grid gathers from.
+pub(super) struct Part<'a> {
+    pub(super) medium: &'a Medium,
+    /// What is thinner is left out.
+    pub(super) least_density: f32,
+}
+
+/// An estimate of the ball about a place over the part of it that is gathered from, ≥ 1.
 ///
 /// - `set`: what `p` is in.
 pub(super) fn ball_over_part(
     world: &World,
     (p, radius): (Vec3, f32),
-    set: &MediumSet,
+    (set, part): (&MediumSet, &Part<'_>),
     draws: &mut Draws<'_>,
 ) -> f32 {
     whole_over_part(|| {
         let v = draws.sampler.next_2d().extend(draws.sampler.next_1d());
         let way = warp::sample_ball(draws.sampler.next_2d(), v) * radius;
         let ray = Ray { t_max: way.length(), ..Ray::new(p, way.normalize_or(Vec3::Z)) };
-        end_of_medium(world, ray, set, &mut draws.stats.rays).is_none()
+        part.medium.density(p + way) >= part.least_density
+            && end_of_medium(world, ray, set, &mut draws.stats.rays).is_none()
     })
 }
 

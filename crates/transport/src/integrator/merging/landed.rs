@@ -41,7 +41,10 @@ pub(in crate::integrator) struct LandedPhoton {
     pub(in crate::integrator) direction: Vec3,
     /// Geometric normal of the surface that it lies on; none in a medium.
     pub(in crate::integrator) n: RoughNormal,
-    /// W, over all photons of its sender in the pass; in a medium what it scatters.
+    /// Density of the medium that it was scattered in; 0 on a surface.
+    pub(in crate::integrator) density: f32,
+    /// W, over all photons of its sender in the pass; in a medium times the way that it goes before it is scattered there,
+    /// scene units.
     pub(in crate::integrator) flux: Spectrum,
     /// Sum of the squares of the densities of the other ways to make its path, over that of merging here but for the
     /// factor of the receiver: those ways that the light's side of the path knows.

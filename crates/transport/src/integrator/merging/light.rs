@@ -22,7 +22,7 @@ use crate::walk::{self, Event, Flown, Stretch, Vertex, VolumeVertex};
 use hyaline_math::{Ray, Vec2, Vec3};
 use hyaline_sampling::Sampler;
 use hyaline_scattering::volume::BeamWeight;
-use hyaline_scattering::{BsdfSample, MediumSet, Transport};
+use hyaline_scattering::{BsdfSample, Medium, MediumSet, Transport};
 use hyaline_spectrum::Spectrum;
 use hyaline_world::{World, mask};
 use rayon::prelude::*;
@@ -225,7 +225,7 @@ impl Light<'_> {
         photon.flux *= place.weight;
         let medium = &self.world.media[place.medium.index()];
         if photon.lands() && Place::in_medium(medium) == Place::Grid {
-            chunk.points.volume.push((place.p, photon.landed(Vec3::ZERO)));
+            chunk.points.volume.push((place.p, photon.landed_in(medium, place.p)));
         }
         let may_scatter = if photon.vertices == 0 { !photon.sender.is_aimed } else { !photon.comes_straight };
         if !may_scatter || !self.may_bounce(photon) {
@@ -336,10 +336,18 @@ impl Photon<'_> {
         (self.vertices == 0).then_some(self.origin)
     }
 
-    /// - `n`: geometric normal where it lands; 0 in a medium.
+    /// - `n`: geometric normal where it lands.
     fn landed(&self, n: Vec3) -> LandedPhoton {
+        let (direction, n) = (self.ray.direction, RoughNormal::new(n));
         let Self { flux, others, bounces, id, .. } = *self;
-        LandedPhoton { direction: self.ray.direction, n: RoughNormal::new(n), flux, others, bounces, id }
+        LandedPhoton { direction, n, density: 0.0, flux, others, bounces, id }
+    }
+
+    /// - `p`: where the medium has scattered it, which its flux has been told.
+    fn landed_in(&self, medium: &Medium, p: Vec3) -> LandedPhoton {
+        let density = medium.density(p);
+        let way = medium.sigma_s_at(p, density).map(|sigma| if sigma > 0.0 { 1.0 / sigma } else { 0.0 });
+        LandedPhoton { density, flux: self.flux * way, ..self.landed(Vec3::ZERO) }
     }
 
     /// Accounts for a vertex that is not singular.
