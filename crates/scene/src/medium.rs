@@ -137,6 +137,12 @@ impl PhaseDescription {
             Self::DoubleHenyeyGreenstein { g1, g2, weight } => g1 + weight * (g2 - g1),
         }
     }
+
+    /// The scattering coefficient of which a *reduced* one is the measure: light that scatters so goes as far as with
+    /// `reduced` and no preferred direction.
+    pub fn unreduced(&self, reduced: Rgb) -> Rgb {
+        reduced.map(|sigma| sigma / (1.0 - self.mean_cosine()))
+    }
 }
 
 /// A factor on absorption, scattering and emission that varies over space.

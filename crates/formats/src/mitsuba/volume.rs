@@ -74,8 +74,8 @@ impl Importer<'_> {
         medium.ignore(&["method", "step_size", "strategy", "sample_emitters", "has_spectral_extinction"]);
         medium.ignore(&["max_density", "majorant_resolution_factor", "majorant_factor"]);
         let scale = medium.float("scale", 1.0, Limits::NOT_NEGATIVE)? as f32;
-        let coefficients = self.coefficients(medium)?;
         let phase = phase::read(medium)?;
+        let coefficients = self.coefficients(medium, &phase)?;
         let emission = self.field(medium, "emission", Limits::NOT_NEGATIVE)?;
         let (sigma_a, sigma_s, density) = match coefficients {
             Coefficients::Apart(sigma_a, sigma_s) => (sigma_a, sigma_s, None),
@@ -101,7 +101,9 @@ impl Importer<'_> {
     }
 
     /// `sigma_a` and `sigma_s`, a `material` by name, or `sigma_t` (`density` in old files) and `albedo`.
-    fn coefficients(&mut self, medium: Element<'_>) -> Result<Coefficients> {
+    ///
+    /// - `phase`: what a `material` scatters by.
+    fn coefficients(&mut self, medium: Element<'_>, phase: &PhaseDescription) -> Result<Coefficients> {
         let sigma_a = medium.color("sigma_a", Limits::NOT_NEGATIVE)?;
         let sigma_s = medium.color("sigma_s", Limits::NOT_NEGATIVE)?;
         if sigma_a.is_some() || sigma_s.is_some() {
@@ -119,7 +121,7 @@ impl Importer<'_> {
         if let Some(name) = name {
             // In 1/mm: `scale` of the medium turns them into 1 / scene unit.
             if let Some(Measured { sigma_s, sigma_a, .. }) = measured::by_name(name).copied() {
-                return Ok(Coefficients::Apart(sigma_a, sigma_s));
+                return Ok(Coefficients::Apart(sigma_a, phase.unreduced(sigma_s)));
             }
             medium.warn(format!("the medium material '{name}' is not known; sigma_t and albedo count"));
         }

@@ -49,10 +49,8 @@ pub(super) fn read(
     let old = base.scattering.clone().unwrap_or(isotropic);
     let phase_field = table.take_one(&["g", "phase"])?;
     let phase = phase_field.map_or(Ok(old.phase), phase)?;
-    // What is measured is (1 - g) σ_s; by default g is 0.
-    let reduced = if measured.is_some() { 1.0 - phase.mean_cosine() } else { 1.0 };
-    let unreduced = old.sigma_s.map(|sigma| sigma / reduced);
-    let sigma_s = table.read("sigma_s", unreduced, |field| field.color(Limits::NOT_NEGATIVE))?;
+    let default = if measured.is_some() { phase.unreduced(old.sigma_s) } else { old.sigma_s };
+    let sigma_s = table.read("sigma_s", default, |field| field.color(Limits::NOT_NEGATIVE))?;
     let (absorption, sigma_s) = match table.take("scale") {
         Some(field) => scaled(field, absorption, sigma_s)?,
         None => (absorption, sigma_s),

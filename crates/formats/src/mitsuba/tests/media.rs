@@ -51,6 +51,10 @@ fn materials_have_their_coefficients() {
     let (sigma_a, sigma_s) = sigma(&skin);
     assert!((sigma_a[2] - 4.8).abs() < 1e-5 && (sigma_s[0] - 7.4).abs() < 1e-5, "{sigma_a:?} {sigma_s:?}");
     assert!(notes.is_empty(), "{notes:?}");
+    let forward =
+        "<string name='material' value='skin1'/><phase type='hg'><float name='g' value='0.5'/></phase>";
+    let (_, sigma_s) = sigma(&medium("0.5.0", "homogeneous", forward).0);
+    assert!((sigma_s[0] - 1.48).abs() < 1e-5, "what was measured is (1 - g) σ_s: {sigma_s:?}");
     let (default, _) = medium("0.5.0", "homogeneous", "");
     assert!(
         (sigma(&default).1[0] - 0.74).abs() < 1e-6,
