@@ -10,11 +10,15 @@ use hyaline_sampling::Distribution1d;
 /// neither the lamp nor the sky is starved, and no chance is less than half of what power alone would give.
 pub const DIRECT_UNIFORM_SHARE: f32 = 0.5;
 
+/// Lights that are few, at most.
+const FEW: usize = 4;
+
 /// The lights of a scene.
 #[derive(Clone, Debug, Default)]
 pub struct LightSet {
     lights: Vec<Light>,
     environments: Vec<u32>,
+    powerful: Vec<u32>,
     any_can_be_met: bool,
     direct: LightSampler,
     emission: LightSampler,
@@ -28,10 +32,12 @@ impl LightSet {
         let powers: Vec<f32> = lights.iter().map(|light| light.power().mean(lanes)).collect();
         let is_environment = |light: &Light| matches!(light, Light::Environment(_));
         let environments = (0..).zip(&lights).filter(|(_, light)| is_environment(light)).map(|(i, _)| i);
+        let direct = LightSampler::new(&powers, DIRECT_UNIFORM_SHARE);
         Self {
             environments: environments.collect(),
+            powerful: (0..lights.len() as u32).filter(|&i| direct.probability(i as usize) > 0.0).collect(),
             any_can_be_met: lights.iter().any(Light::can_be_met),
-            direct: LightSampler::new(&powers, DIRECT_UNIFORM_SHARE),
+            direct,
             emission: LightSampler::new(&powers, 0.0),
             lights,
         }
@@ -63,6 +69,11 @@ impl LightSet {
     /// The choice of a light to sample directly: by power and, in part, evenly.
     pub fn direct(&self) -> &LightSampler {
         &self.direct
+    }
+
+    /// All lights that have power, where they are few.
+    pub fn few(&self) -> Option<&[u32]> {
+        (self.powerful.len() <= FEW).then_some(&self.powerful)
     }
 
     /// The choice of a light to emit from: by power, so that all photons carry about the same.

@@ -1,5 +1,6 @@
 //! What a path gathers all along its way through a homogeneous medium: the beams that it passes.
 
+use super::asking;
 use super::merges::{Beyond, Merges};
 use super::{weight, within};
 use crate::integrator::merging::{BEAM_SHARE, Beam, Passing, PhotonId, Photons};
@@ -21,6 +22,8 @@ pub(super) struct Along<'a> {
     /// What the path carries at the start of its way.
     pub(super) throughput: Spectrum,
     pub(super) merges: Merges,
+    /// Scatterings of the path so far.
+    pub(super) bounces: u32,
     /// Bounces that merged photons may have made, and one more.
     pub(super) bounces_left: u32,
 }
@@ -87,7 +90,9 @@ impl Along<'_> {
             |origin| {
                 // No path hits a delta light: sampling it stands where drawing its direction would.
                 let pdf = if origin.is_delta { 1.0 } else { phase };
-                let sampled = origin.sampled(self.world, ray.at(passing.on_ray), -beam.direction) / pdf;
+                let chance = asking::chance(self.world, origin.light as usize, self.bounces);
+                let at = ray.at(passing.on_ray);
+                let sampled = chance * origin.sampled(self.world, at, -beam.direction) / pdf;
                 let across = phase / pdf;
                 let others = beam.others + sampled * sampled + behind * across * across;
                 others * (pdf / own) * (pdf / own)

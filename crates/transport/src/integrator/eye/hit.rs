@@ -1,6 +1,6 @@
 //! Lights that a path comes to by itself.
 
-use super::{Eye, Path, weight};
+use super::{Eye, Path, asking, weight};
 use crate::walk::Vertex;
 use hyaline_geometry::SurfaceHit;
 use hyaline_math::Vec3;
@@ -43,7 +43,8 @@ impl Eye<'_> {
         let sampled = path.last.sampled.filter(|_| techniques.sampling);
         let sampling = sampled.map_or(0.0, |(p, pdf)| {
             let light = self.world.lights.get(index);
-            self.world.lights.direct().probability(index) * light.pdf_direct(p, path.ray.direction, hit) / pdf
+            let chance = asking::chance(self.world, index, path.bounces - 1);
+            chance * light.pdf_direct(p, path.ray.direction, hit) / pdf
         });
         let aimed = if path.crossings > 0 { path.rival } else { 0.0 };
         let merging = self.merging(path, index, hit.map(|hit| hit.ng));

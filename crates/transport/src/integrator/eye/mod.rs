@@ -12,6 +12,7 @@
 pub(super) mod aim;
 mod aimed;
 mod along;
+pub(super) mod asking;
 mod hit;
 pub(super) mod merges;
 pub(super) mod place;
@@ -186,7 +187,8 @@ impl Eye<'_> {
             && self.world.has_volumes
             && bounces_left > 0
             && (path.bounces == 0 || draws.sampler.next_1d() < chance);
-        let Path { ray, set, visible, throughput, merges, .. } = path;
+        let Path { ray, set, visible, throughput, merges, bounces, .. } = path;
+        let bounces = *bounces;
         if !self.world.has_volumes {
             return walk::advance_flown(self.world, ray, *visible, set, draws.stats);
         }
@@ -195,6 +197,7 @@ impl Eye<'_> {
             world: self.world,
             throughput: *throughput,
             merges: *merges,
+            bounces,
             bounces_left,
         });
         let (mut gathered, mut rays) = (Spectrum::ZERO, 0);

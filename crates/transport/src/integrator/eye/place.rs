@@ -105,7 +105,7 @@ impl Eye<'_> {
         Points { own, behind: path.merges.behind(Beyond::Wide) }
     }
 
-    /// Light of one light, chosen at random, by a shadow ray.
+    /// Light of the lights that are asked, by a shadow ray to each.
     fn sampled_light_in_volume(
         &self,
         path: &Path,
@@ -113,12 +113,16 @@ impl Eye<'_> {
         wo: Vec3,
         draws: &mut Draws<'_>,
     ) -> Spectrum {
-        let weight = |choice: &LightChoice, sample: &DirectSample, phase: f32| {
-            self.sample_weight_in_volume(path, place, wo, choice, sample, phase)
-        };
         let VolumeVertex { p, medium, .. } = *place;
-        let place = VolumeLight { world: self.world, p, medium, wo, set: &path.set };
-        place.sample_one(weight, draws.sampler, draws.stats)
+        let asking = VolumeLight { world: self.world, p, medium, wo, set: &path.set };
+        let asked = self.asked(path.bounces, draws);
+        asked.into_iter().fold(Spectrum::ZERO, |sum, choice| {
+            let weight = |sample: &DirectSample, phase: f32| {
+                self.sample_weight_in_volume(path, place, wo, &choice, sample, phase)
+            };
+            let light = self.world.lights.get(choice.index);
+            sum + asking.from_light(light, draws.sampler.next_2d(), weight, draws.stats) / choice.probability
+        })
     }
 
     /// What sampling a light counts beside hitting it and merging.

@@ -122,10 +122,23 @@ impl Eye<'_> {
         [caustic, Gather { is_indirect: true, radius: wide, carried: carried(wide), behind, ..caustic }]
     }
 
-    /// Light of one light, chosen at random, by a shadow ray.
+    /// Light of the lights that are asked, by a shadow ray to each.
     fn sampled_light(&self, path: &Path, vertex: &Vertex, wo: Vec3, draws: &mut Draws<'_>) -> Spectrum {
-        let (u_choice, u) = (draws.sampler.next_1d(), draws.sampler.next_2d());
-        let Some(choice) = self.world.lights.direct().sample(u_choice) else { return Spectrum::ZERO };
+        let asked = self.asked(path.bounces, draws);
+        asked
+            .into_iter()
+            .fold(Spectrum::ZERO, |sum, choice| sum + self.light_of(choice, path, vertex, wo, draws))
+    }
+
+    fn light_of(
+        &self,
+        choice: LightChoice,
+        path: &Path,
+        vertex: &Vertex,
+        wo: Vec3,
+        draws: &mut Draws<'_>,
+    ) -> Spectrum {
+        let u = draws.sampler.next_2d();
         let Some(sample) = self.world.lights.get(choice.index).sample_direct(vertex.hit.p, u) else {
             return Spectrum::ZERO;
         };

@@ -9,6 +9,7 @@ use super::origin::Origin;
 use super::sender::{BEAM_SHARE, Sender, Senders};
 use crate::RenderSettings;
 use crate::in_volume;
+use crate::integrator::eye::asking;
 use crate::integrator::eye::merges::Place;
 use crate::integrator::eye::place::volume_factor;
 use crate::integrator::eye::radius::{GatherRadius, INDIRECT};
@@ -358,7 +359,11 @@ impl Photon<'_> {
         // No path hits a delta light: sampling it stands where drawing its direction would, and the density cancels.
         let drawn = if self.vertices == 0 && self.origin.is_delta { 1.0 / pdf } else { 1.0 };
         let sampled = match self.vertices {
-            0 => self.origin.sampled(world, p, -self.ray.direction) / (pdf * drawn),
+            0 => {
+                // Where it is merged, the path from the eye scatters first.
+                let chance = asking::chance(world, self.origin.light as usize, 1);
+                chance * self.origin.sampled(world, p, -self.ray.direction) / (pdf * drawn)
+            }
             _ => 0.0,
         };
         let (own, across) = (own / drawn, across / drawn);

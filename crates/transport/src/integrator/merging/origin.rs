@@ -35,7 +35,7 @@ impl Origin {
         if self.is_delta || !self.techniques.hits { 0.0 } else { (self.at_light * self.at_light).recip() }
     }
 
-    /// Density of sampling the light from the first vertex over the light's factor.
+    /// Density of sampling the light from the first vertex over the light's factor, once it is asked.
     ///
     /// - `p`: the vertex; `toward`: unit, from there to the light.
     pub(in crate::integrator) fn sampled(&self, world: &World, p: Vec3, toward: Vec3) -> f32 {
@@ -43,12 +43,11 @@ impl Origin {
             return 0.0;
         }
         let light = world.lights.get(self.light as usize);
-        let chance = world.lights.direct().probability(self.light as usize);
         match light {
-            Light::Directional(_) => chance / self.at_light,
+            Light::Directional(_) => self.at_light.recip(),
             // For a point the square of the way stands for the cosine.
-            _ if self.is_delta => chance * self.p.distance_squared(p) / self.at_light,
-            _ => chance * light.pdf_direct(p, toward, self.hit_by_path().as_ref()) / self.at_light,
+            _ if self.is_delta => self.p.distance_squared(p) / self.at_light,
+            _ => light.pdf_direct(p, toward, self.hit_by_path().as_ref()) / self.at_light,
         }
     }
 

@@ -7,6 +7,7 @@ use super::ways::{Chain, Shares};
 use crate::RenderSettings;
 use crate::integrator::View;
 use crate::integrator::eye::along::Along;
+use crate::integrator::eye::asking;
 use crate::integrator::eye::radius::GatherRadius;
 use crate::integrator::eye::{Eye, Path};
 use crate::integrator::merging::{Beam, Light as Photons, Passing, Photons as Merged, Senders};
@@ -197,6 +198,7 @@ impl Replay<'_> {
             world,
             throughput: Spectrum::ONE,
             merges: path.merges,
+            bounces: path.bounces,
             bounces_left: u32::MAX,
         };
         let phase = medium.phase.value(-path.ray.direction, -beam.direction);
@@ -229,7 +231,7 @@ impl Replay<'_> {
 
     /// What sampling the photon's place on its light counts.
     fn sample(&self, path: &Path, vertex: &Vertex, wo: Vec3) -> Option<f32> {
-        let (choice, sample) = self.light_sample(vertex.hit.p)?;
+        let (choice, sample) = self.light_sample(vertex.hit.p, path.bounces)?;
         let set = match crosses(vertex.hit.ng, wo, sample.wi) {
             true => vertex.far_set(self.eye.world, &path.set),
             false => path.set.clone(),
@@ -238,13 +240,15 @@ impl Replay<'_> {
     }
 
     fn sample_in_fog(&self, path: &Path, place: &VolumeVertex, wo: Vec3) -> Option<f32> {
-        let (choice, sample) = self.light_sample(place.p)?;
+        let (choice, sample) = self.light_sample(place.p, path.bounces)?;
         let phase = self.eye.world.media[place.medium.index()].phase.value(wo, sample.wi);
         Some(self.eye.sample_weight_in_volume(path, place, wo, &choice, &sample, phase))
     }
 
     /// The sample that light sampling would have made of the photon's start.
-    fn light_sample(&self, p: Vec3) -> Option<(LightChoice, DirectSample)> {
+    ///
+    /// - `bounces`: of the path before `p`.
+    fn light_sample(&self, p: Vec3, bounces: u32) -> Option<(LightChoice, DirectSample)> {
         let start = &self.flight.last().photon.origin;
         let lights = &self.eye.world.lights;
         let index = start.light as usize;
@@ -274,7 +278,8 @@ impl Replay<'_> {
             }
             _ => light.sample_direct(p, Vec2::splat(0.5))?,
         };
-        let choice = LightChoice { index, probability: lights.direct().probability(index), u: 0.5 };
+        let choice =
+            LightChoice { index, probability: asking::chance(self.eye.world, index, bounces), u: 0.5 };
         Some((choice, sample))
     }
 }

@@ -84,7 +84,10 @@ impl Chain {
         if !self.turns[0].is_drawn() {
             return 0.0;
         }
-        self.eye_density(0) * self.lamp.chances[1] * self.lamp.direct
+        // Where it scatters first, a path asks all of a few lamps.
+        let is_first = self.turns[1..].iter().all(|turn| !turn.is_drawn());
+        let chance = if is_first { 1.0 } else { self.lamp.chances[1] };
+        self.eye_density(0) * chance * self.lamp.direct
     }
 
     /// Density of a path from the eye to vertex `i`, times the photons of a pass that come there and are gathered.
