@@ -10,9 +10,6 @@ use hyaline_sampling::Distribution1d;
 /// neither the lamp nor the sky is starved, and no chance is less than half of what power alone would give.
 pub const DIRECT_UNIFORM_SHARE: f32 = 0.5;
 
-/// Lights that are few, at most.
-const FEW: usize = 4;
-
 /// The lights of a scene.
 #[derive(Clone, Debug, Default)]
 pub struct LightSet {
@@ -71,9 +68,9 @@ impl LightSet {
         &self.direct
     }
 
-    /// All lights that have power, where they are few.
-    pub fn few(&self) -> Option<&[u32]> {
-        (self.powerful.len() <= FEW).then_some(&self.powerful)
+    /// Indices of the lights that have power.
+    pub fn powerful(&self) -> &[u32] {
+        &self.powerful
     }
 
     /// The choice of a light to emit from: by power, so that all photons carry about the same.
@@ -174,6 +171,15 @@ mod tests {
         let set = LightSet::new(vec![light(1.0), light(3.0)], 3);
         assert!((set.emission().probability(1) - 0.75).abs() < 1e-6);
         assert!((set.direct().probability(1) - 0.625).abs() < 1e-6);
+    }
+
+    #[test]
+    fn lights_without_power_are_left_out() {
+        let light =
+            |power: f32| Light::Point(PointLight { position: Vec3::ZERO, intensity: Spectrum::splat(power) });
+        let of = |powers: &[f32]| LightSet::new(powers.iter().map(|&power| light(power)).collect(), 3);
+        assert_eq!(of(&[1.0, 0.0, 3.0]).powerful(), [0, 2]);
+        assert!(of(&[]).powerful().is_empty());
     }
 
     #[test]

@@ -90,7 +90,7 @@ impl Along<'_> {
             |origin| {
                 // No path hits a delta light: sampling it stands where drawing its direction would.
                 let pdf = if origin.is_delta { 1.0 } else { phase };
-                let chance = asking::chance(self.world, origin.light as usize, self.bounces);
+                let chance = asking::expected(self.world, origin.light as usize, self.bounces);
                 let at = ray.at(passing.on_ray);
                 let sampled = chance * origin.sampled(self.world, at, -beam.direction) / pdf;
                 let across = phase / pdf;

@@ -43,7 +43,7 @@ impl Eye<'_> {
         let sampled = path.last.sampled.filter(|_| techniques.sampling);
         let sampling = sampled.map_or(0.0, |(p, pdf)| {
             let light = self.world.lights.get(index);
-            let chance = asking::chance(self.world, index, path.bounces - 1);
+            let chance = asking::expected(self.world, index, path.bounces - 1);
             chance * light.pdf_direct(p, path.ray.direction, hit) / pdf
         });
         let aimed = if path.crossings > 0 { path.rival } else { 0.0 };

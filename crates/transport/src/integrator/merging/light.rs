@@ -361,7 +361,7 @@ impl Photon<'_> {
         let sampled = match self.vertices {
             0 => {
                 // Where it is merged, the path from the eye scatters first.
-                let chance = asking::chance(world, self.origin.light as usize, 1);
+                let chance = asking::expected(world, self.origin.light as usize, 1);
                 chance * self.origin.sampled(world, p, -self.ray.direction) / (pdf * drawn)
             }
             _ => 0.0,

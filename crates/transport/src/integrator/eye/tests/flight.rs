@@ -218,6 +218,7 @@ impl Flight<'_> {
             end,
             is_delta: !light.can_be_met(),
             photons: sender.count.into(),
+            lamps: lights.lights().len(),
             chances: [chance, lights.direct().probability(index)].map(f64::from),
             emission,
             direct,

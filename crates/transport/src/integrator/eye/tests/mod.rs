@@ -11,8 +11,14 @@ use by_hand::{Finish, Turn};
 use hyaline_math::DVec3;
 use scenes::{Lighting, Making, Stage};
 
-const LIGHTS: [Lighting; 5] =
-    [Lighting::Discs, Lighting::Point, Lighting::Spot, Lighting::Directional, Lighting::Sky];
+const LIGHTS: [Lighting; 6] = [
+    Lighting::Discs,
+    Lighting::ManyDiscs,
+    Lighting::Point,
+    Lighting::Spot,
+    Lighting::Directional,
+    Lighting::Sky,
+];
 
 /// Paths that a scene must be good for.
 const PATHS: usize = 80;

@@ -279,7 +279,7 @@ impl Replay<'_> {
             _ => light.sample_direct(p, Vec2::splat(0.5))?,
         };
         let choice =
-            LightChoice { index, probability: asking::chance(self.eye.world, index, bounces), u: 0.5 };
+            LightChoice { index, probability: asking::expected(self.eye.world, index, bounces), u: 0.5 };
         Some((choice, sample))
     }
 }

@@ -49,7 +49,10 @@ impl Stage {
 /// Lights to test with.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Lighting {
+    /// A few.
     Discs,
+    /// More than a path asks at once, the last the brightest.
+    ManyDiscs,
     Point,
     Spot,
     Directional,
@@ -159,9 +162,12 @@ impl Making {
     pub(super) fn lit(mut self, lighting: Lighting) -> Stage {
         let at = DVec3::new(0.4, 2.5, 0.2);
         match lighting {
-            Lighting::Discs => {
-                // Two, so that their choice counts.
-                for (x, radiance) in [(-0.5, 3.0), (0.6, 1.0)] {
+            Lighting::Discs | Lighting::ManyDiscs => {
+                // Two at least, so that their choice counts.
+                let few = [(-0.5, 3.0), (0.6, 1.0)];
+                let many = [(-2.7, 1.0), (-1.6, 0.5), (-0.5, 2.0), (0.6, 0.3), (1.7, 1.0), (2.8, 5.0)];
+                let discs = if let Lighting::Discs = lighting { &few[..] } else { &many[..] };
+                for &(x, radiance) in discs {
                     let center = DVec3::new(x, 2.5, 0.1);
                     let disc = ShapeDescription::Disc {
                         center,

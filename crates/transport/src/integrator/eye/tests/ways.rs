@@ -14,6 +14,8 @@ pub(super) struct Lamp {
     pub(super) is_delta: bool,
     /// Photons of a pass that take such ways.
     pub(super) photons: f64,
+    /// Lamps that there are.
+    pub(super) lamps: usize,
     /// Chances that it is chosen, for photons and for shadow rays.
     pub(super) chances: [f64; 2],
     /// Densities of the photon's start and direction, m⁻² (1 for points) and sr⁻¹ (1 for parallel light).
@@ -84,10 +86,15 @@ impl Chain {
         if !self.turns[0].is_drawn() {
             return 0.0;
         }
-        // Where it scatters first, a path asks all of a few lamps.
         let is_first = self.turns[1..].iter().all(|turn| !turn.is_drawn());
-        let chance = if is_first { 1.0 } else { self.lamp.chances[1] };
-        self.eye_density(0) * chance * self.lamp.direct
+        let [_, chance] = self.lamp.chances;
+        let asked = match self.lamp.lamps {
+            _ if !is_first => chance,
+            // Where it scatters first, a path asks all of a few lamps, else four times by chance.
+            ..=4 => 1.0,
+            _ => 4.0 * chance,
+        };
+        self.eye_density(0) * asked * self.lamp.direct
     }
 
     /// Density of a path from the eye to vertex `i`, times the photons of a pass that come there and are gathered.
