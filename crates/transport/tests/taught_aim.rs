@@ -41,8 +41,8 @@ fn tiles(world: &World, guiding: bool, passes: u32) -> Vec<Moments> {
 #[test]
 fn light_from_a_mirror_is_found_where_photons_came_from() {
     let (with_mirror, with_image) = (lamp_over_a_floor(true), lamp_over_a_floor(false));
-    let [taught, others] = [true, false].map(|guiding| tiles(&with_mirror, guiding, 300));
-    let right = tiles(&with_image, true, 300);
+    let [taught, others] = [true, false].map(|guiding| tiles(&with_mirror, guiding, 1200));
+    let right = tiles(&with_image, true, 1200);
     assert_same_picture(&taught, &right, 1e-2, "a lamp and its image");
     let error =
         |tiles: &[Moments]| tiles.iter().zip(&right).map(|(a, b)| (a.mean() - b.mean()).powi(2)).sum::<f64>();
