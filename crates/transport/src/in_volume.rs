@@ -8,7 +8,7 @@ use hyaline_sampling::Sampler;
 use hyaline_scattering::{MediumId, MediumSet, Phase};
 use hyaline_spectrum::Spectrum;
 use hyaline_world::World;
-use hyaline_world::light::{DirectSample, Light, LightChoice};
+use hyaline_world::light::{DirectSample, Light};
 
 /// A place in a medium that asks for light.
 #[derive(Clone, Copy, Debug)]
@@ -27,20 +27,12 @@ pub struct VolumeLight<'a> {
 
 impl VolumeLight<'_> {
     /// Light of one light, chosen at random, that goes on against the path: an estimate of the sum over all lights, the
-    /// scattering coefficient left out.
-    ///
-    /// - `weight`: as for [`Self::from_light`], and of the choice.
-    pub fn sample_one(
-        &self,
-        weight: impl FnOnce(&LightChoice, &DirectSample, f32) -> f32,
-        sampler: &mut Sampler,
-        stats: &mut Stats,
-    ) -> Spectrum {
+    /// scattering coefficient left out. For those who find it in no other way.
+    pub fn sample_one(&self, sampler: &mut Sampler, stats: &mut Stats) -> Spectrum {
         let (u_choice, u) = (sampler.next_1d(), sampler.next_2d());
         let Some(choice) = self.world.lights.direct().sample(u_choice) else { return Spectrum::ZERO };
         let light = self.world.lights.get(choice.index);
-        let weight = |sample: &DirectSample, phase: f32| weight(&choice, sample, phase);
-        self.from_light(light, u, weight, stats) / choice.probability
+        self.from_light(light, u, |_, _| 1.0, stats) / choice.probability
     }
 
     /// Light of `light` that goes on against the path, one sample, the scattering coefficient left out.

@@ -175,30 +175,41 @@ fn in_fog_photons_and_paths_agree() {
 #[test]
 fn media_are_as_bright_at_their_skin_as_within() {
     // The first passes, whose kernels are a quarter of the ball: what lies beyond its skin must not count as dark.
-    // A photon is worth what the medium is where it landed, not where it is gathered. Blur takes straight light and scattered
-    // light as it finds them, which in a grid differ over a cell: by this much.
-    for (is_grid, blur) in [(false, 0.002), (true, 0.01)] {
+    for is_grid in [false, true] {
         let mut kit = SceneKit::new();
+        volume(&mut kit, "milk", 1.333, [0.0; 3], [3.0; 3], 0.0);
         if is_grid {
-            volume(&mut kit, "milk", 1.333, [2.0; 3], [1.0; 3], 0.0);
-            grid(&mut kit, DVec3::splat(-1.0), DVec3::ONE, uneven);
-            let white = GridData { size: [1, 1, 1], channels: 3, values: vec![1.0; 3] };
-            let medium = kit.description.media.last_mut().unwrap();
-            medium.density.as_mut().unwrap().albedo = Some(Arc::new(white));
-        } else {
-            volume(&mut kit, "milk", 1.333, [0.0; 3], [3.0; 3], 0.0);
+            grid(&mut kit, DVec3::splat(-1.0), DVec3::ONE, |_| 1.0);
         }
-        kit.solid("ball", sphere(DVec3::ZERO, 0.9), "milk");
-        kit.sky(1.0).camera(DVec3::Z * 4.0, DVec3::ZERO);
-        kit.description.cameras[0].projection = Projection::Perspective { fov: 0.4, fov_axis: FovAxis::Y };
-        let mean = known_to(0.006, 0, |seed| {
-            let settings = RenderSettings { seed, ..settings() };
-            Shot { world: &kit.world(), integrator: "merging", settings, size: (12, 12) }.mean(0..24)
-        });
-        let error = mean.variance_of_mean().sqrt();
-        println!("grid {is_grid}: {} ± {error}, {} pictures", mean.mean(), mean.count());
-        assert!((mean.mean() - 1.0).abs() < 3.0 * error + blur, "grid {is_grid}: {} ± {error}", mean.mean());
+        assert_shines_like_the_sky(kit, 0..24, &format!("grid {is_grid}"));
     }
+}
+
+#[test]
+fn an_uneven_grid_is_as_bright_as_an_even_one() {
+    // A photon is worth what the medium is where it landed, not where it is gathered; an albedo overrules the coefficients.
+    // Kernels are as wide as a cell, and no wider: straight light and scattered light are blurred each by itself.
+    let mut kit = SceneKit::new();
+    volume(&mut kit, "milk", 1.333, [2.0; 3], [1.0; 3], 0.0);
+    grid(&mut kit, DVec3::splat(-1.0), DVec3::ONE, uneven);
+    let white = GridData { size: [1, 1, 1], channels: 3, values: vec![1.0; 3] };
+    kit.description.media.last_mut().unwrap().density.as_mut().unwrap().albedo = Some(Arc::new(white));
+    assert_shines_like_the_sky(kit, 1000..1024, "uneven grid");
+}
+
+/// Fails where a lossless ball of the last medium doesn't show the radiance of the sky about it.
+fn assert_shines_like_the_sky(mut kit: SceneKit, passes: Range<u32>, what: &str) {
+    kit.solid("ball", sphere(DVec3::ZERO, 0.9), "milk");
+    kit.sky(1.0).camera(DVec3::Z * 4.0, DVec3::ZERO);
+    kit.description.cameras[0].projection = Projection::Perspective { fov: 0.4, fov_axis: FovAxis::Y };
+    let world = kit.world();
+    let mean = known_to(0.006, 0, |seed| {
+        let settings = RenderSettings { seed, ..settings() };
+        Shot { world: &world, integrator: "merging", settings, size: (12, 12) }.mean(passes.clone())
+    });
+    let error = mean.variance_of_mean().sqrt();
+    println!("{what}: {} ± {error}, {} pictures", mean.mean(), mean.count());
+    assert!((mean.mean() - 1.0).abs() < 3.0 * error + 0.002, "{what}: {} ± {error}", mean.mean());
 }
 
 #[test]

@@ -84,7 +84,7 @@ impl LightSet {
 pub struct LightChoice {
     /// Index of the light.
     pub index: usize,
-    /// Chance of this choice, > 0…1.
+    /// Chance of this choice, > 0…1; of several, how often the light is among them on the mean.
     pub probability: f32,
     /// The random number again, uniform in [0, 1) and independent of the choice.
     pub u: f32,

@@ -2,7 +2,7 @@
 
 use super::merges::{Beyond, Passed, Place};
 use super::radius::GatherRadius;
-use super::within::{self, LEAST_DENSITY, Part};
+use super::within::{self, Part};
 use super::{Draws, Eye, Path, weight};
 use crate::direct::LastScatter;
 use crate::in_volume::{self, VolumeLight};
@@ -79,12 +79,12 @@ impl Eye<'_> {
     ) -> Spectrum {
         let medium = &self.world.media[place.medium.index()];
         let radius = photons.radius.in_volume(place.p);
-        let part = Part { medium, least_density: medium.density(place.p) * LEAST_DENSITY };
+        let part = Part::about(medium, place.p);
         let carried = path.throughput * (1.0 / (4.0 / 3.0 * PI * radius * radius * radius));
         let points = self.points_about(path, place, photons);
         let left = self.bounces_left(path);
         let light = photons.landed.volume(place.p, radius, |photon| {
-            if photon.bounces >= left || photon.density < part.least_density {
+            if photon.bounces >= left || !part.holds(photon.density) {
                 return Spectrum::ZERO;
             }
             let phase = medium.phase.value(wo, -photon.direction);

@@ -15,13 +15,24 @@ use hyaline_world::World;
 const NEAR_AN_END: f32 = 8.0;
 
 /// Density of what is gathered from over that of the place, at least.
-pub(super) const LEAST_DENSITY: f32 = 1.0 / 8.0;
+const LEAST_DENSITY: f32 = 1.0 / 8.0;
 
 /// What a place in a medium with a grid gathers from.
 pub(super) struct Part<'a> {
-    pub(super) medium: &'a Medium,
-    /// What is thinner is left out.
-    pub(super) least_density: f32,
+    medium: &'a Medium,
+    least_density: f32,
+}
+
+impl<'a> Part<'a> {
+    /// - `p`: the place.
+    pub(super) fn about(medium: &'a Medium, p: Vec3) -> Self {
+        Self { medium, least_density: LEAST_DENSITY * medium.density(p) }
+    }
+
+    /// Whether what is so dense counts.
+    pub(super) fn holds(&self, density: f32) -> bool {
+        density >= self.least_density
+    }
 }
 
 /// An estimate of the ball about a place over the part of it that is gathered from, ≥ 1.
@@ -37,7 +48,7 @@ pub(super) fn ball_over_part(
         let v = draws.sampler.next_2d().extend(draws.sampler.next_1d());
         let way = warp::sample_ball(draws.sampler.next_2d(), v) * radius;
         let ray = Ray { t_max: way.length(), ..Ray::new(p, way.normalize_or(Vec3::Z)) };
-        part.medium.density(p + way) >= part.least_density
+        part.holds(part.medium.density(p + way))
             && end_of_medium(world, ray, set, &mut draws.stats.rays).is_none()
     })
 }

@@ -177,7 +177,7 @@ impl<'a> Eye<'a> {
         let mut light = Spectrum::ZERO;
         if self.settings.photon_map.exclude_single_scattering {
             let place = VolumeLight { world, p, medium: set.active(), wo, set };
-            light += sigma_s * place.sample_one(|_, _, _| 1.0, sampler, self.stats);
+            light += sigma_s * place.sample_one(sampler, self.stats);
         }
         let known = (&mut self.scratch, &mut *self.stats);
         let look_up = || maps.volume.scattered(world, p, wo, set, sampler, known);
