@@ -16,6 +16,8 @@ pub struct Techniques {
     pub merging: bool,
     /// Both ways are gone at the first polished surfaces, in `merging` alone.
     pub splitting: bool,
+    /// More looks through glass where lamps are seen as glints smaller than a pixel; nothing without splitting.
+    pub glints: bool,
     /// Photons are aimed at what is polished, by projection maps.
     pub projection: bool,
     /// Photons are sent where light has been found before; `path` asks for light where photons have come from.
@@ -30,11 +32,12 @@ pub struct Techniques {
 type Switch = fn(&mut Techniques) -> &mut bool;
 
 /// All parts, by the names they go by in scene files.
-const PARTS: [(&str, Switch); 8] = [
+const PARTS: [(&str, Switch); 9] = [
     ("hits", |all| &mut all.hits),
     ("samples", |all| &mut all.sampling),
     ("photons", |all| &mut all.merging),
     ("splitting", |all| &mut all.splitting),
+    ("glints", |all| &mut all.glints),
     ("projection", |all| &mut all.projection),
     ("guide", |all| &mut all.guiding),
     ("broad-photons", |all| &mut all.broad),
@@ -48,6 +51,7 @@ impl Default for Techniques {
             sampling: true,
             merging: true,
             splitting: true,
+            glints: true,
             projection: true,
             guiding: true,
             broad: true,

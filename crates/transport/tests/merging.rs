@@ -21,7 +21,7 @@ const POWER: f64 = 0.006;
 const POWER_UNDER_WATER: f64 = 0.009;
 /// Passes so late that their radius is a fortieth of the first one's: with pixels as large as these, blur would carry
 /// light across edges, out of the glass that it is in.
-const LATE: Range<u32> = 4_000_000..4_000_012;
+const LATE: Range<u32> = 4_000_000..4_000_024;
 
 /// Mean of a picture over some passes, for as many seeds as it takes to know a difference of two to `power`.
 fn means(world: &World, integrator: &str, passes: Range<u32>, power: f64) -> Moments {
@@ -32,7 +32,7 @@ fn means(world: &World, integrator: &str, passes: Range<u32>, power: f64) -> Mom
 }
 
 fn assert_as_path(world: &World, power: f64, what: &str) {
-    let (photons, paths) = (means(world, "merging", LATE, power), means(world, "path", 0..64, power));
+    let (photons, paths) = (means(world, "merging", LATE, power), means(world, "path", 0..128, power));
     assert_same(&photons, &paths, power, what);
 }
 

@@ -60,8 +60,8 @@ impl Pass for PathPass<'_> {
         let Paths { world, view, settings, aim } = self.paths;
         let camera = CameraRays { world, view, settings, pass: self.pass };
         let eye = Eye { world, settings, aim: Some(aim), photons: None };
-        camera.render_tile(tile, samples, |ray, set, sampler, sample| {
-            eye.radiance(ray, set, &mut Draws { sampler, stats, tally: Tally::default() }, Some(sample))
+        camera.render_tile(tile, samples, |_, (ray, set), sampler, sample| {
+            eye.radiance(ray, set, &mut Draws { sampler, stats, tally: Tally::default() }, Some(sample)).all()
         });
     }
 }
@@ -79,5 +79,5 @@ pub fn radiance(
     first: Option<&mut PixelSample>,
 ) -> Spectrum {
     let eye = Eye { world, settings, aim: None, photons: None };
-    eye.radiance(ray, set, &mut Draws { sampler, stats, tally: Tally::default() }, first)
+    eye.radiance(ray, set, &mut Draws { sampler, stats, tally: Tally::default() }, first).all()
 }

@@ -44,10 +44,22 @@ impl Pass for PixelPass<'_> {
     fn render_tile(&self, tile: Rect, samples: &mut [PixelSample], stats: &mut Stats) {
         let PerPixel { world, view, settings, estimate } = self.prepared;
         let camera = CameraRays { world, view, settings, pass: self.pass };
-        camera.render_tile(tile, samples, |ray, start, sampler, sample| {
+        camera.render_tile(tile, samples, |_, (ray, start), sampler, sample| {
             estimate(world, settings, ray, start, sampler, stats, Some(sample))
         });
     }
+}
+
+/// A ray of the camera through a pixel, and what it starts in; `None` where the camera sees nothing there.
+pub(super) fn ray_through(
+    world: &World,
+    view: &View,
+    (x, y): (u32, u32),
+    sampler: &mut Sampler,
+) -> Option<(Ray, MediumSet)> {
+    let film = Vec2::new(x as f32 + 0.5, y as f32 + 0.5) + view.filter.sample(sampler.next_2d());
+    let ray = world.cameras[view.camera].ray(film, sampler.next_2d())?;
+    Some((ray, world.camera_media[view.camera].clone()))
 }
 
 /// The camera rays of one pass, one a pixel.
@@ -65,17 +77,13 @@ impl CameraRays<'_> {
         &self,
         tile: Rect,
         samples: &mut [PixelSample],
-        mut estimate: impl FnMut(Ray, MediumSet, &mut Sampler, &mut PixelSample) -> Spectrum,
+        mut estimate: impl FnMut((u32, u32), (Ray, MediumSet), &mut Sampler, &mut PixelSample) -> Spectrum,
     ) {
-        let Self { world, view, settings, pass } = *self;
-        for ((x, y), sample) in tile.pixels().zip(samples) {
-            let mut sampler = Sampler::new(settings.sampler, settings.seed, (x, y), pass);
-            let film = Vec2::new(x as f32 + 0.5, y as f32 + 0.5) + view.filter.sample(sampler.next_2d());
-            let lens = sampler.next_2d();
+        for (pixel, sample) in tile.pixels().zip(samples) {
+            let mut sampler = Sampler::new(self.settings.sampler, self.settings.seed, pixel, self.pass);
             *sample = PixelSample::default();
-            if let Some(ray) = world.cameras[view.camera].ray(film, lens) {
-                let start = world.camera_media[view.camera].clone();
-                sample.beauty = estimate(ray, start, &mut sampler, sample).to_rgb();
+            if let Some(camera_ray) = ray_through(self.world, self.view, pixel, &mut sampler) {
+                sample.beauty = estimate(pixel, camera_ray, &mut sampler, sample).to_rgb();
             }
         }
     }

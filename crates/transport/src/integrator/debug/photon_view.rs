@@ -63,7 +63,7 @@ impl Pass for PhotonPass<'_> {
         let cloud =
             PointCloud { world, maps, spread: world.cameras[view.camera].spread(), show: settings.debug };
         let mut scratch = Nearest::default();
-        camera.render_tile(tile, samples, |ray, set, sampler, sample| {
+        camera.render_tile(tile, samples, |_, (ray, set), sampler, sample| {
             if cloud.is_wanted() {
                 return cloud.color(&ray, set, stats, sample);
             }

@@ -42,6 +42,7 @@ use hyaline_scattering::MediumSet;
 use hyaline_spectrum::Spectrum;
 use hyaline_world::{World, mask};
 use merges::Merges;
+use smallvec::SmallVec;
 use split::Arrived;
 use tally::Tally;
 
@@ -82,8 +83,53 @@ struct Path {
     collisions: u32,
     /// Singular events in a row.
     crossings: u32,
-    /// Light found so far.
+    /// Light found so far, but for that in `glints`.
     light: Spectrum,
+    /// Lights that it has come to while it was strong.
+    glints: Spectrum,
+    /// What the polished surfaces behind send its way, of what comes to them; 0 once it was scattered.
+    share: f32,
+}
+
+impl Path {
+    /// Adds the light of a lamp or of the sky that it has come to.
+    fn find(&mut self, light: Spectrum) {
+        *if self.is_strong() { &mut self.glints } else { &mut self.light } += light;
+    }
+
+    /// Whether nothing but polished surfaces lies behind, each of which sends much this way.
+    fn is_strong(&self) -> bool {
+        self.share >= STRONG && self.crossings <= MOST_CROSSINGS
+    }
+
+    fn seen(&self) -> Seen {
+        Seen { light: self.light, glints: self.glints }
+    }
+}
+
+/// Radiance along a camera ray.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Seen {
+    /// All but the glints.
+    pub(super) light: Spectrum,
+    /// Lights that are seen directly or over polished surfaces alone, by ways that these send much of the light.
+    pub(super) glints: Spectrum,
+}
+
+/// Share of the light that polished surfaces send the way of a glint, at least; what is fainter makes no speckles.
+const STRONG: f32 = 0.1;
+/// Polished surfaces before a glint, at most.
+const MOST_CROSSINGS: u32 = 32;
+
+impl Seen {
+    pub(super) fn all(&self) -> Spectrum {
+        self.light + self.glints
+    }
+
+    fn add(&mut self, other: Self) {
+        self.light += other.light;
+        self.glints += other.glints;
+    }
 }
 
 impl Eye<'_> {
@@ -96,37 +142,61 @@ impl Eye<'_> {
         set: MediumSet,
         draws: &mut Draws<'_>,
         mut first: Option<&mut PixelSample>,
-    ) -> Spectrum {
-        let light = self.estimate(self.start(ray, set), draws, &mut first);
+    ) -> Seen {
+        let seen = self.estimate(self.start(ray, set), draws, &mut first);
         draws.stats.merges += std::mem::take(&mut draws.tally.merges);
-        light
+        seen
     }
 
-    fn estimate(&self, path: Path, draws: &mut Draws<'_>, first: &mut Option<&mut PixelSample>) -> Spectrum {
+    /// What [`Self::radiance`] estimates as glints, at the cost of a few rays.
+    pub(super) fn glints(&self, ray: Ray, set: MediumSet, draws: &mut Draws<'_>) -> Spectrum {
+        let mut glints = Spectrum::ZERO;
+        let mut waiting = SmallVec::<[Path; 4]>::new();
+        waiting.push(self.start(ray, set));
+        while let Some(mut path) = waiting.pop() {
+            let mut at = self.walk(&mut path, draws);
+            let goes_on = self.arrive(&mut path, &mut at, &mut None);
+            glints += std::mem::take(&mut path.glints);
+            let Flown::Arrived(Event::Surface(vertex)) = &at else { continue };
+            if !goes_on || !vertex.bsdf.is_delta() {
+                continue;
+            }
+            for branch in vertex.bsdf.branches(-path.ray.direction).iter().flatten() {
+                if path.share * split::share(branch, self.world.lanes) >= STRONG {
+                    let mut part = path.clone();
+                    self.turn(&mut part, vertex, &split::taken(branch));
+                    waiting.extend(part.is_strong().then_some(part));
+                }
+            }
+        }
+        glints
+    }
+
+    /// Whether both ways are gone at polished surfaces.
+    pub(super) fn splits(&self) -> bool {
         // Where no photons bring the caustics, their noise is larger than that of highlights, and more paths do more for both.
-        let splits = self.settings.techniques.splitting && self.aim.is_none();
-        if !splits || !self.world.lights.any_can_be_met() {
+        self.settings.techniques.splitting && self.aim.is_none() && self.world.lights.any_can_be_met()
+    }
+
+    fn estimate(&self, path: Path, draws: &mut Draws<'_>, first: &mut Option<&mut PixelSample>) -> Seen {
+        if !self.splits() {
             return self.follow(path, draws, first);
         }
-        let (light, arrived) = self.over_polished(path, draws, first);
-        let Some(Arrived { mut path, at }) = arrived else { return light };
-        match self.scatter(&mut path, &at, draws) {
-            true => light + self.follow(path, draws, first),
-            false => light + path.light,
-        }
+        let (mut seen, arrived) = self.over_polished(path, draws, first);
+        let Some(Arrived { mut path, at }) = arrived else { return seen };
+        seen.add(match self.scatter(&mut path, &at, draws) {
+            true => self.follow(path, draws, first),
+            false => path.seen(),
+        });
+        seen
     }
 
-    /// Follows a path to its end; returns the light that it has found.
-    fn follow(
-        &self,
-        mut path: Path,
-        draws: &mut Draws<'_>,
-        first: &mut Option<&mut PixelSample>,
-    ) -> Spectrum {
+    /// Follows a path to its end.
+    fn follow(&self, mut path: Path, draws: &mut Draws<'_>, first: &mut Option<&mut PixelSample>) -> Seen {
         loop {
             let mut at = self.walk(&mut path, draws);
             if !self.arrive(&mut path, &mut at, first) || !self.scatter(&mut path, &at, draws) {
-                return path.light;
+                return path.seen();
             }
         }
     }
@@ -135,7 +205,7 @@ impl Eye<'_> {
     fn arrive(&self, path: &mut Path, at: &mut Flown, first: &mut Option<&mut PixelSample>) -> bool {
         match at {
             Flown::Arrived(Event::Sky { transmittance }) => {
-                path.light += path.throughput * *transmittance * self.sky(path);
+                path.find(path.throughput * *transmittance * self.sky(path));
                 return false;
             }
             Flown::Arrived(Event::Surface(vertex)) => {
@@ -146,7 +216,7 @@ impl Eye<'_> {
                 if let Some(sample) = first.take() {
                     first_hit::record(sample, vertex, &path.ray);
                 }
-                path.light += path.throughput * self.emitted(path, vertex);
+                path.find(path.throughput * self.emitted(path, vertex));
             }
             Flown::Scattered(_) => *first = None,
         }
@@ -176,6 +246,8 @@ impl Eye<'_> {
             collisions: 0,
             crossings: 0,
             light: Spectrum::ZERO,
+            glints: Spectrum::ZERO,
+            share: 1.0,
         }
     }
 

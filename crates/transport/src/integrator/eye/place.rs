@@ -57,7 +57,7 @@ impl Eye<'_> {
         let wo = -path.ray.direction;
         path.bounces += 1;
         path.collisions += Past::collisions_in(place.medium, &path.set);
-        (path.crossings, path.rival) = (0, 0.0);
+        (path.crossings, path.rival, path.share) = (0, 0.0, 0.0);
         path.last = LastScatter { sampled: Some((place.p, pdf)), is_covered: false };
         if let Some(photons) = &self.photons {
             let own = volume_factor(self.world, place, &photons.radius, [wo, wi]) / pdf;

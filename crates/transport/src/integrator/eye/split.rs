@@ -4,7 +4,7 @@
 //! be a speckle. Split paths see them all, each by its share. Of the places where the parts leave polished surfaces one is
 //! chosen, by what its part carries, and the path goes on from there alone: behind polished surfaces it costs what it did.
 
-use super::{Draws, Eye, Path};
+use super::{Draws, Eye, Path, Seen};
 use crate::walk::{Event, Flown};
 use hyaline_film::PixelSample;
 use hyaline_scattering::{Branch, BsdfSample};
@@ -27,21 +27,22 @@ pub(super) struct Arrived {
 impl Eye<'_> {
     /// Follows a path, and all parts that it is split into, to where they scatter.
     ///
-    /// Returns the light found on the way, and the part that goes on, if one does; the light that it has found is among it.
+    /// Returns what is seen on the way, and the part that goes on, if one does; what that has seen is among it.
     pub(super) fn over_polished(
         &self,
         path: Path,
         draws: &mut Draws<'_>,
         first: &mut Option<&mut PixelSample>,
-    ) -> (Spectrum, Option<Arrived>) {
-        let mut light = Spectrum::ZERO;
+    ) -> (Seen, Option<Arrived>) {
+        let mut seen = Seen::default();
         let mut chosen = Chosen::default();
         let mut waiting = SmallVec::<[Path; MOST_WAITING]>::new();
         let mut next = Some(path);
         while let Some(mut path) = next {
             let mut at = self.walk(&mut path, draws);
             let goes_on = self.arrive(&mut path, &mut at, first);
-            light += std::mem::take(&mut path.light);
+            seen.add(path.seen());
+            (path.light, path.glints) = (Spectrum::ZERO, Spectrum::ZERO);
             let is_polished = matches!(&at, Flown::Arrived(Event::Surface(v)) if v.bsdf.is_delta());
             next = if !goes_on {
                 waiting.pop()
@@ -56,7 +57,7 @@ impl Eye<'_> {
                 waiting.pop()
             };
         }
-        (light, chosen.take())
+        (seen, chosen.take())
     }
 
     /// Splits a path at a polished surface, if it is to be split there: the path goes the stronger way.
@@ -68,7 +69,7 @@ impl Eye<'_> {
             return None;
         }
         let [Some(first), Some(second)] = vertex.bsdf.branches(-path.ray.direction) else { return None };
-        let share = |branch: &Branch| branch.weight.max_lane(self.world.lanes) / branch.eta_scale;
+        let share = |branch| share(branch, self.world.lanes);
         let (strong, faint) = if share(&first) >= share(&second) { (first, second) } else { (second, first) };
         if self.carried(path) * share(&faint) < FAINTEST {
             return None;
@@ -121,8 +122,13 @@ impl Chosen {
     }
 }
 
+/// What goes the way of a branch, of the light that comes there.
+pub(super) fn share(branch: &Branch, lanes: usize) -> f32 {
+    branch.weight.max_lane(lanes) / branch.eta_scale
+}
+
 /// A branch that is taken for certain.
-fn taken(branch: &Branch) -> BsdfSample {
+pub(super) fn taken(branch: &Branch) -> BsdfSample {
     let Branch { wi, weight, transmits, eta_scale } = *branch;
     BsdfSample { wi, weight, pdf: 1.0, is_delta: true, transmits, eta_scale }
 }

@@ -52,11 +52,16 @@ impl Eye<'_> {
         }
         path.last.record(vertex, scattered);
         if scattered.is_delta {
+            path.share *= match vertex.bsdf.is_delta() {
+                true => (scattered.weight * scattered.pdf).max_lane(self.world.lanes) / scattered.eta_scale,
+                // Of a coat, only chance sees what it mirrors.
+                false => 0.0,
+            };
             path.crossings += 1;
             path.merges.pass_singular();
         } else {
             path.bounces += 1;
-            (path.crossings, path.rival) = (0, 0.0);
+            (path.crossings, path.rival, path.share) = (0, 0.0, 0.0);
             self.note_merge(path, vertex, scattered, ior_before);
         }
         path.ray = vertex.leave(scattered.wi, path.ray.time);

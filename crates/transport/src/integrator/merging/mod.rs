@@ -18,10 +18,14 @@
 //! Slusallek & Křivánek, Efficient caustic rendering with lightweight photon mapping, CGF 37(4), 2018.
 
 mod beams;
+mod glints;
 mod landed;
 mod light;
 mod origin;
 mod pilot;
+#[cfg(test)]
+#[path = "../../../tests/scene_kit/mod.rs"]
+mod scene_kit;
 mod sender;
 
 use super::eye::aim::Aim;
@@ -33,13 +37,14 @@ use super::{Integrator, Pass, Prepared, RenderSettings, View};
 use crate::photon::radius;
 use crate::stats::Stats;
 pub(super) use beams::{Beam, Passing};
+use glints::Glints;
 use hyaline_film::{PixelSample, Rect};
 use hyaline_world::World;
 pub(super) use landed::{Landed, LandedPhoton, PhotonId};
 pub(super) use light::Light;
 #[cfg(test)]
 pub(super) use light::Photon;
-pub(super) use sender::{BEAM_SHARE, PROJECTION_CELLS, Senders};
+pub(super) use sender::{BEAM_SHARE, Senders, projection_cells};
 use std::sync::atomic::AtomicBool;
 
 /// Path tracing and photon merging.
@@ -59,12 +64,12 @@ impl Integrator for MergingIntegrator {
         stats: &mut Stats,
     ) -> Box<dyn Prepared + 'w> {
         let mut senders = Senders::new(world, view, settings.techniques);
-        if senders.any() {
-            pilot::teach(world, view, settings, &mut senders, stats);
-        }
+        let light = senders.any().then(|| pilot::teach(world, view, settings, &mut senders, stats));
         let pixels = view.width * view.height;
         let aim = (!senders.any()).then(|| Aim::taught(world, pixels, settings, cancel, stats));
-        Box::new(Merging { world, view: *view, settings: *settings, senders, aim })
+        let eye = Eye { world, settings, aim: aim.as_ref(), photons: None };
+        let glints = light.and_then(|light| Glints::find(&eye, view, light, stats));
+        Box::new(Merging { world, view: *view, settings: *settings, senders, aim, glints })
     }
 }
 
@@ -76,6 +81,7 @@ struct Merging<'w> {
     senders: Senders<'w>,
     /// Where no photons are sent, paths aim as those of `path` do.
     aim: Option<Aim>,
+    glints: Option<Glints>,
 }
 
 impl Prepared for Merging<'_> {
@@ -106,12 +112,18 @@ struct MergingPass<'a> {
 
 impl Pass for MergingPass<'_> {
     fn render_tile(&self, tile: Rect, samples: &mut [PixelSample], stats: &mut Stats) {
-        let Merging { world, view, settings, senders, aim } = self.merging;
+        let Merging { world, view, settings, senders, aim, glints } = self.merging;
         let camera = CameraRays { world, view, settings, pass: self.pass };
         let photons = senders.any().then_some(Photons { senders, landed: &self.landed, radius: self.radius });
         let eye = Eye { world, settings, aim: aim.as_ref(), photons };
-        camera.render_tile(tile, samples, |ray, set, sampler, sample| {
-            eye.radiance(ray, set, &mut Draws { sampler, stats, tally: Tally::default() }, Some(sample))
+        let looking = Eye { photons: None, ..eye };
+        camera.render_tile(tile, samples, |pixel, (ray, set), sampler, sample| {
+            let mut draws = Draws { sampler, stats, tally: Tally::default() };
+            let seen = eye.radiance(ray, set, &mut draws, Some(sample));
+            match glints {
+                Some(glints) => glints.look_again(seen, &looking, (view, pixel, self.pass), stats),
+                None => seen.all(),
+            }
         });
     }
 }

@@ -42,18 +42,18 @@ const MERGES_PER_RAY: f64 = 8.0;
 /// Turns the seed of the picture into that of small ones.
 const OTHER_SEED: u64 = 0x7069_6c6f_7473_2121;
 
-/// Teaches the senders of a picture, and decides on the broad one.
+/// Teaches the senders of a picture, and decides on the broad one. Returns the mean light of the picture, roughly.
 pub(super) fn teach(
     world: &World,
     view: &View,
     settings: &RenderSettings,
     senders: &mut Senders<'_>,
     stats: &mut Stats,
-) {
+) -> f32 {
     let (pixels, scale) = (view.width * view.height, coarseness(view));
     let size = [view.width, view.height].map(|side| (side as f32 / scale).ceil().max(1.0) as u32);
     let settings = RenderSettings { seed: settings.seed ^ OTHER_SEED, ..*settings };
-    let mut pilot = Pilot { world, view, settings, size, scale, stats };
+    let mut pilot = Pilot { world, view, settings, size, scale, light: None, stats };
     let coarse_pixels = size[0] * size[1];
     let techniques = settings.techniques;
     senders.send(coarse_pixels, techniques.broad);
@@ -73,7 +73,9 @@ pub(super) fn teach(
             senders.send(coarse_pixels, false);
             !pilot.trial(senders).is_better_than(&with)
         });
+    let light = pilot.light.unwrap_or_else(|| mean(&pilot.take(senders, 0).light));
     senders.send(pixels, broad);
+    light
 }
 
 /// Whether too few photons have found something to learn from.
@@ -94,6 +96,8 @@ struct Pilot<'a> {
     /// Of a small picture, pixels.
     size: [u32; 2],
     scale: f32,
+    /// Mean light of the last picture taken.
+    light: Option<f32>,
     stats: &'a mut Stats,
 }
 
@@ -164,6 +168,7 @@ impl Pilot<'_> {
         }
         picture.work = stats.rays as f64 + stats.merges as f64 / MERGES_PER_RAY;
         self.stats.add(&stats);
+        self.light = Some(mean(&picture.light));
         picture
     }
 
@@ -180,7 +185,8 @@ impl Pilot<'_> {
             let seen = ray.map_or(Spectrum::ZERO, |ray| {
                 let set = self.world.camera_media[self.view.camera].clone();
                 let tally = Tally { found: Some(&mut found), ..Tally::default() };
-                eye.radiance(ray, set, &mut Draws { sampler: &mut sampler, stats: &mut stats, tally }, None)
+                let mut draws = Draws { sampler: &mut sampler, stats: &mut stats, tally };
+                eye.radiance(ray, set, &mut draws, None).all()
             });
             let seen = seen.mean(self.world.lanes);
             light.push(if seen.is_finite() { seen } else { 0.0 });

@@ -15,8 +15,8 @@ use hyaline_scene::{ProjectionMaps, Techniques};
 use hyaline_world::World;
 use hyaline_world::light::DirectSample;
 
-/// Cells of the projection maps along each axis.
-pub(in crate::integrator) const PROJECTION_CELLS: u32 = 64;
+/// Cells of the projection maps along each axis, at least and at most.
+const PROJECTION_CELLS: [u32; 2] = [16, 64];
 
 /// One photon in so many leaves beams in homogeneous media; a beam is found by many more paths than a point.
 const PHOTONS_PER_BEAM: u32 = 64;
@@ -40,18 +40,24 @@ pub(in crate::integrator) struct Senders<'w> {
     pub(in crate::integrator) broad: Sender<'w>,
 }
 
+/// Cells of the projection maps along each axis: small pictures send too few photons for fine maps to be worth their making.
+pub(in crate::integrator) fn projection_cells(pixels: u32) -> u32 {
+    pixels.isqrt().clamp(PROJECTION_CELLS[0], PROJECTION_CELLS[1])
+}
+
 impl<'w> Senders<'w> {
     /// None is sent where `merging` is off.
     pub(in crate::integrator) fn new(world: &'w World, view: &View, techniques: Techniques) -> Self {
+        let pixels = view.width * view.height;
         let sender = |maps, is_aimed| {
-            let emitter = PhotonEmitter::new(world, maps, PROJECTION_CELLS);
+            let emitter = PhotonEmitter::new(world, maps, projection_cells(pixels));
             Sender { emitter, count: 0, is_aimed, guide: Guide::default() }
         };
         let aimed_at = if techniques.projection { ProjectionMaps::Cells } else { ProjectionMaps::None };
         let (aimed, broad) = (sender(aimed_at, true), sender(ProjectionMaps::None, false));
         let mut senders = Self { aimed, broad };
         if techniques.merging {
-            senders.send(view.width * view.height, techniques.broad);
+            senders.send(pixels, techniques.broad);
         }
         senders
     }

@@ -71,7 +71,7 @@ impl Pass for EyePass<'_> {
         let EyeStage { world, view, settings, maps } = self.stage;
         let camera = CameraRays { world, view, settings, pass: self.pass };
         let mut eye = Eye::new(world, settings, maps, stats);
-        camera.render_tile(tile, samples, |ray, set, sampler, sample| {
+        camera.render_tile(tile, samples, |_, (ray, set), sampler, sample| {
             eye.follow(Strand::from_camera(ray, set), sampler, Some(sample))
         });
         eye.tell_times();

@@ -11,7 +11,7 @@
 
 use super::ball::Ball;
 use crate::RenderSettings;
-use crate::integrator::merging::PROJECTION_CELLS;
+use crate::integrator::merging::projection_cells;
 use crate::photon::{MapKind, PhotonEmitter, PhotonTracer};
 use crate::stats::Stats;
 use hyaline_math::{Bounds, Ray, Vec3};
@@ -100,7 +100,7 @@ impl Learned {
         cancel: &AtomicBool,
         stats: &mut Stats,
     ) -> Self {
-        let emitter = PhotonEmitter::new(world, ProjectionMaps::Cells, PROJECTION_CELLS);
+        let emitter = PhotonEmitter::new(world, ProjectionMaps::Cells, projection_cells(pixels));
         if emitter.fraction() == 0.0 || !world.lights.any_can_be_met() {
             return Self::default();
         }

@@ -1,15 +1,12 @@
 //! Photons find small things, and wherever they are sent the picture keeps its mean.
 
-#[path = "../../../../tests/scene_kit/mod.rs"]
-mod scene_kit;
-
+use super::super::scene_kit::{SceneKit, floor, rectangle, sphere, walls};
 use super::*;
 use crate::photon::PhotonEmitter;
 use hyaline_math::DVec3;
 use hyaline_scene::{PixelFilter as FilterDescription, ProjectionMaps, Techniques};
 use hyaline_testkit::{Moments, Random, welch_t};
 use hyaline_world::camera::PixelFilter;
-use scene_kit::{SceneKit, rectangle, sphere, walls};
 use std::collections::HashSet;
 
 const SIZE: u32 = 32;
@@ -22,7 +19,7 @@ fn view() -> View {
 fn ball_under_the_sky() -> SceneKit {
     let mut kit = SceneKit::new();
     kit.medium("glass", 1.5).matte("matte", 0.5).sky(1.0);
-    kit.surface("floor", scene_kit::floor(0.0, 10.0), "matte");
+    kit.surface("floor", floor(0.0, 10.0), "matte");
     kit.solid("ball", sphere(DVec3::Y * 0.2, 0.178), "glass");
     kit.camera(DVec3::new(0.0, 1.2, 2.0), DVec3::ZERO);
     kit
@@ -68,7 +65,8 @@ fn merged_by(
 ) -> (f64, Moments) {
     let (view, mut stats) = (view(), Stats::default());
     let settings = RenderSettings { seed: 11, techniques, ..RenderSettings::default() };
-    let mut pilot = Pilot { world, view: &view, settings, size: [SIZE; 2], scale, stats: &mut stats };
+    let mut pilot =
+        Pilot { world, view: &view, settings, size: [SIZE; 2], scale, light: None, stats: &mut stats };
     let (mut found, mut means) = (0, Moments::new());
     for pass in 0..passes {
         let picture = pilot.take(senders, pass);
@@ -146,7 +144,7 @@ fn broad_photons_are_left_away_where_they_bring_nothing() {
         senders.broad.count
     };
     let mut plain = SceneKit::new();
-    plain.matte("matte", 0.5).sky(1.0).surface("floor", scene_kit::floor(0.0, 2.0), "matte");
+    plain.matte("matte", 0.5).sky(1.0).surface("floor", floor(0.0, 2.0), "matte");
     plain.surface("ball", sphere(DVec3::Y * 0.4, 0.4), "matte");
     plain.camera(DVec3::new(0.0, 1.2, 3.0), DVec3::ZERO);
     assert_eq!(broad(&plain), 0);
