@@ -21,6 +21,7 @@ pub mod image_file;
 mod pass_set;
 mod rect;
 mod sample;
+mod shared_noise;
 mod sums;
 pub mod tile_test;
 
@@ -37,4 +38,5 @@ pub use image_file::{ImageError, ImageFormat, read_image, write_image};
 pub use pass_set::PassSet;
 pub use rect::Rect;
 pub use sample::PixelSample;
+pub use shared_noise::with_shared_noise;
 pub use tile_test::{TileFailure, TileTest, tile_test};

@@ -60,7 +60,8 @@ pub struct TileFailure {
 
 /// Compares the tiles of two pictures whose variances are known.
 ///
-/// - `image_variance`, `reference_variance`: variance of the mean radiance of each pixel and channel.
+/// - `image_variance`, `reference_variance`: variance of the mean radiance of each pixel and channel; pixels are taken to know
+///   nothing of each other, see [`with_shared_noise`](crate::with_shared_noise) for others.
 /// - `tile_size`: side of a tile, pixels, ≥ 1; tiles at the right and lower border may be smaller.
 ///
 /// Needs so many samples per tile that their mean is normal.
@@ -120,17 +121,17 @@ pub fn tile_test(
 
 /// The light of one channel of a tile.
 #[derive(Clone, Copy, Debug)]
-struct Moments {
+pub(crate) struct Moments {
     /// Number of pixels.
     count: f64,
-    mean: f64,
+    pub(crate) mean: f64,
     /// Variance of the mean.
-    variance: f64,
+    pub(crate) variance: f64,
 }
 
 impl Moments {
     /// Of all tiles and channels.
-    fn of_tiles(image: &Image, variance: &Image, tiles: &[Rect], width: usize) -> Vec<[Self; 3]> {
+    pub(crate) fn of_tiles(image: &Image, variance: &Image, tiles: &[Rect], width: usize) -> Vec<[Self; 3]> {
         let (colors, variances) = (finite_colors(image).0, finite_colors(variance).0);
         let moments = |tile: &Rect, channel: usize| {
             let count = tile.area() as f64;
@@ -190,7 +191,7 @@ fn median(mut numbers: Vec<f64>) -> f64 {
 }
 
 /// Tiles that cover the picture, row by row.
-fn tiles(width: u32, height: u32, size: u32) -> Vec<Rect> {
+pub(crate) fn tiles(width: u32, height: u32, size: u32) -> Vec<Rect> {
     let starts = |length: u32| (0..length).step_by(size as usize);
     let tile = |x0: u32, y0: u32| {
         let (x1, y1) = (x0.saturating_add(size).min(width), y0.saturating_add(size).min(height));

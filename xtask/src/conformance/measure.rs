@@ -8,6 +8,10 @@ use serde_json::Value;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
+/// Groups of passes that tell what noise pixels share, and the part of the picture's passes that each has.
+const GROUPS: u64 = 8;
+const GROUP_PART: u64 = 16;
+
 /// How long to render a scene.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Length {
@@ -72,9 +76,10 @@ impl Renderer<'_> {
         let mut measured = self.render(scene, &files)?;
         if let Some(reference) = &scene.reference {
             measured.figures = Some(self.compare(scene, reference, &files)?);
-            let variance = scene.variance.as_ref();
-            measured.tiles =
-                variance.map(|variance| Tiles::test(&files.film, reference, variance)).transpose()?;
+            if let Some(variance) = &scene.variance {
+                let groups = self.groups(scene, &files, measured.spp)?;
+                measured.tiles = Some(Tiles::test(&files.film, &groups, reference, variance)?);
+            }
         }
         Ok(measured)
     }
@@ -118,6 +123,29 @@ impl Renderer<'_> {
             measured = Measured { seconds: measured.seconds + next.seconds, ..next };
         }
         Ok(measured)
+    }
+
+    /// Films of passes after the first `spp`, where the pixels of a pass share photons; else none.
+    fn groups(&self, scene: &Scene, files: &Files, spp: u64) -> Result<Vec<Film>, String> {
+        let film = Film::read(&files.film).map_err(|error| format!("{}: {error}", files.film.display()))?;
+        if !film.header().parts.iter().any(|part| part.name == "integrator" && part.value == "merging") {
+            return Ok(Vec::new());
+        }
+        let passes = (spp / GROUP_PART).max(2);
+        let (image, film) = (files.film.with_extension("group.exr"), files.film.with_extension("group.film"));
+        let group = |number: u64| {
+            let first = spp + number * passes;
+            remove(&film)?;
+            let mut render = Command::new(self.binary);
+            render.arg("render").arg(&scene.file).arg("-o").arg(&image).arg("--film").arg(&film);
+            render.arg("--passes").arg(format!("{first}..{}", first + passes));
+            last_json(render.arg("--json").args(&self.words))?;
+            let read = Film::read(&film).map_err(|error| format!("{}: {error}", film.display()))?;
+            remove(&film)?;
+            remove(&image)?;
+            Ok(read)
+        };
+        (0..GROUPS).map(group).collect()
     }
 
     /// Renders once, going on with what is there.

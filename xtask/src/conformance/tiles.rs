@@ -1,6 +1,8 @@
 //! The tile test of one render, and whether the render was long enough for it.
 
-use hyaline_film::{Film, Image, TileFailure, develop, read_image, tile_test, variance_of_mean};
+use hyaline_film::{
+    Film, Image, TileFailure, develop, read_image, tile_test, variance_of_mean, with_shared_noise,
+};
 use std::collections::BTreeSet;
 use std::path::Path;
 
@@ -71,14 +73,25 @@ pub(crate) struct Tiles {
 impl Tiles {
     /// Tests a film against a reference and the variance of its mean.
     ///
+    /// - `groups`: films of other passes, as many each, where pixels share photons and so their noise.
+    ///
     /// # Errors
     /// A file can't be read, the film holds fewer than two passes, sizes differ.
-    pub(crate) fn test(film: &Path, reference: &Path, variance: &Path) -> Result<Self, String> {
+    pub(crate) fn test(
+        film: &Path,
+        groups: &[Film],
+        reference: &Path,
+        variance: &Path,
+    ) -> Result<Self, String> {
         let shown = film.display();
         let film = Film::read(film).map_err(|error| format!("{shown}: {error}"))?;
-        let film_variance = variance_of_mean(&film).ok_or("the tile test needs two passes")?;
+        let variance_of = |film: &Film| variance_of_mean(film).ok_or("the tile test needs two passes");
+        let groups = groups.iter().map(|group| Ok((develop(group), variance_of(group)?)));
+        let groups = groups.collect::<Result<Vec<_>, String>>()?;
         let (reference, variance) = (read(reference)?, read(variance)?);
         let size = hyaline_film::tile_test::TILE_SIZE;
+        let film_variance =
+            with_shared_noise(&variance_of(&film)?, &groups, size).map_err(|error| error.to_string())?;
         let test = tile_test(&develop(&film), &film_variance, &reference, &variance, size)
             .map_err(|error| error.to_string())?;
         let failing: BTreeSet<(u32, u32)> = test.failures.iter().map(|f| (f.tile.y0, f.tile.x0)).collect();
