@@ -5,7 +5,7 @@
 
 use crate::compare::{SizeMismatch, check_sizes};
 use crate::image::Image;
-use crate::tile_test::{Moments, tiles};
+use crate::tile_test::{Moments, about, tiles};
 
 /// The variance of a picture, raised by what the pixels of each tile scatter together.
 ///
@@ -55,11 +55,7 @@ fn ratio(groups: &[Vec<[Moments; 3]>], tile: usize, channel: usize) -> Option<f6
 
 /// Mean of the ratios of a tile and those about it; 1 where none is known.
 fn mean_about(ratios: &[[Option<f64>; 3]], index: usize, columns: usize, channel: usize) -> f64 {
-    let (rows, row, column) = (ratios.len() / columns, index / columns, index % columns);
-    let near = |at: usize, count: usize| at.saturating_sub(1)..(at + 2).min(count);
-    let known = near(row, rows)
-        .flat_map(|y| near(column, columns).map(move |x| y * columns + x))
-        .filter_map(|index| ratios[index][channel]);
+    let known = about(index, columns, ratios.len()).filter_map(|near| ratios[near][channel]);
     let (sum, count) = known.fold((0.0, 0.0), |(sum, count), ratio| (sum + ratio, count + 1.0));
     if count > 0.0 { sum / count } else { 1.0 }
 }

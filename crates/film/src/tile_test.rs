@@ -146,20 +146,24 @@ impl Moments {
 
 /// For each tile and channel the variance of a pixel's mean over that mean, of the tile and those about it together.
 fn pooled(moments: &[[Moments; 3]], columns: usize) -> Vec<[f64; 3]> {
-    let rows = moments.len() / columns.max(1);
     let relation = |index: usize, channel: usize| {
-        let (row, column) = (index / columns, index % columns);
         let (mut variance, mut light) = (0.0, 0.0);
-        for y in row.saturating_sub(1)..(row + 2).min(rows) {
-            for x in column.saturating_sub(1)..(column + 2).min(columns) {
-                let tile = &moments[y * columns + x][channel];
-                variance += tile.variance * tile.count * tile.count;
-                light += tile.mean.max(0.0) * tile.count;
-            }
+        for near in about(index, columns, moments.len()) {
+            let tile = &moments[near][channel];
+            variance += tile.variance * tile.count * tile.count;
+            light += tile.mean.max(0.0) * tile.count;
         }
         if light > 0.0 { variance / light } else { 0.0 }
     };
     (0..moments.len()).map(|index| [0, 1, 2].map(|channel| relation(index, channel))).collect()
+}
+
+/// Indices of a tile and those about it, of `count` in rows of `columns`.
+pub(crate) fn about(index: usize, columns: usize, count: usize) -> impl Iterator<Item = usize> {
+    let near = |at: usize, count: usize| at.saturating_sub(1)..(at + 2).min(count);
+    let columns_near = near(index % columns, columns);
+    near(index / columns, count / columns)
+        .flat_map(move |y| columns_near.clone().map(move |x| y * columns + x))
 }
 
 /// Chance of a difference at least this large between right means whose difference has this variance.

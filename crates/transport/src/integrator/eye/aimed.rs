@@ -6,7 +6,7 @@
 //! surface (power heuristic), as all that follows is the same for both.
 
 use super::aim::Cones;
-use super::{Draws, Eye, Path};
+use super::{Draws, Eye, Path, Seen};
 use crate::in_volume;
 use crate::walk::{Event, Flown, Vertex, VolumeVertex};
 use hyaline_math::Vec3;
@@ -64,7 +64,7 @@ impl Eye<'_> {
     /// A path to be aimed. Its throughput falls where it is drawn densely, which says nothing of what it is worth: what it
     /// falls by there is to be left out of roulette, as the n² factors are.
     fn second(&self, path: &Path) -> Path {
-        Path { light: Spectrum::ZERO, ..path.clone() }
+        Path { seen: Seen::default(), ..path.clone() }
     }
 
     /// Density of the path's own way over that of the aimed one; 0 where what paths come to does not count.
@@ -78,10 +78,10 @@ impl Eye<'_> {
         loop {
             let mut at = self.walk(&mut path, draws);
             // What a medium sends out on the way is left to the path itself, what comes straight to light sampling.
-            path.light = Spectrum::ZERO;
+            path.seen = Seen::default();
             let goes_on = self.arrive(&mut path, &mut at, &mut None);
             if path.crossings > 0 {
-                light += path.light;
+                light += path.seen.all();
             }
             let is_polished = matches!(&at, Flown::Arrived(Event::Surface(v)) if v.bsdf.is_delta());
             if !goes_on || !is_polished || !self.scatter(&mut path, &at, draws) {

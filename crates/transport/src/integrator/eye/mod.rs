@@ -13,6 +13,7 @@ pub(super) mod aim;
 mod aimed;
 mod along;
 pub(super) mod asking;
+mod glints;
 mod hit;
 pub(super) mod merges;
 pub(super) mod place;
@@ -35,6 +36,7 @@ use crate::stats::Stats;
 use crate::walk::{self, Event, Flown, Stretch};
 use aim::Aim;
 use along::Along;
+pub(super) use glints::Seen;
 use hyaline_film::PixelSample;
 use hyaline_math::Ray;
 use hyaline_sampling::Sampler;
@@ -42,7 +44,6 @@ use hyaline_scattering::MediumSet;
 use hyaline_spectrum::Spectrum;
 use hyaline_world::{World, mask};
 use merges::Merges;
-use smallvec::SmallVec;
 use split::Arrived;
 use tally::Tally;
 
@@ -83,53 +84,10 @@ struct Path {
     collisions: u32,
     /// Singular events in a row.
     crossings: u32,
-    /// Light found so far, but for that in `glints`.
-    light: Spectrum,
-    /// Lights that it has come to while it was strong.
-    glints: Spectrum,
+    /// Light found so far.
+    seen: Seen,
     /// What the polished surfaces behind send its way, of what comes to them; 0 once it was scattered.
     share: f32,
-}
-
-impl Path {
-    /// Adds the light of a lamp or of the sky that it has come to.
-    fn find(&mut self, light: Spectrum) {
-        *if self.is_strong() { &mut self.glints } else { &mut self.light } += light;
-    }
-
-    /// Whether nothing but polished surfaces lies behind, each of which sends much this way.
-    fn is_strong(&self) -> bool {
-        self.share >= STRONG && self.crossings <= MOST_CROSSINGS
-    }
-
-    fn seen(&self) -> Seen {
-        Seen { light: self.light, glints: self.glints }
-    }
-}
-
-/// Radiance along a camera ray.
-#[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Seen {
-    /// All but the glints.
-    pub(super) light: Spectrum,
-    /// Lights that are seen directly or over polished surfaces alone, by ways that these send much of the light.
-    pub(super) glints: Spectrum,
-}
-
-/// Share of the light that polished surfaces send the way of a glint, at least; what is fainter makes no speckles.
-const STRONG: f32 = 0.1;
-/// Polished surfaces before a glint, at most.
-const MOST_CROSSINGS: u32 = 32;
-
-impl Seen {
-    pub(super) fn all(&self) -> Spectrum {
-        self.light + self.glints
-    }
-
-    fn add(&mut self, other: Self) {
-        self.light += other.light;
-        self.glints += other.glints;
-    }
 }
 
 impl Eye<'_> {
@@ -148,30 +106,6 @@ impl Eye<'_> {
         seen
     }
 
-    /// What [`Self::radiance`] estimates as glints, at the cost of a few rays.
-    pub(super) fn glints(&self, ray: Ray, set: MediumSet, draws: &mut Draws<'_>) -> Spectrum {
-        let mut glints = Spectrum::ZERO;
-        let mut waiting = SmallVec::<[Path; 4]>::new();
-        waiting.push(self.start(ray, set));
-        while let Some(mut path) = waiting.pop() {
-            let mut at = self.walk(&mut path, draws);
-            let goes_on = self.arrive(&mut path, &mut at, &mut None);
-            glints += std::mem::take(&mut path.glints);
-            let Flown::Arrived(Event::Surface(vertex)) = &at else { continue };
-            if !goes_on || !vertex.bsdf.is_delta() {
-                continue;
-            }
-            for branch in vertex.bsdf.branches(-path.ray.direction).iter().flatten() {
-                if path.share * split::share(branch, self.world.lanes) >= STRONG {
-                    let mut part = path.clone();
-                    self.turn(&mut part, vertex, &split::taken(branch));
-                    waiting.extend(part.is_strong().then_some(part));
-                }
-            }
-        }
-        glints
-    }
-
     /// Whether both ways are gone at polished surfaces.
     pub(super) fn splits(&self) -> bool {
         // Where no photons bring the caustics, their noise is larger than that of highlights, and more paths do more for both.
@@ -186,7 +120,7 @@ impl Eye<'_> {
         let Some(Arrived { mut path, at }) = arrived else { return seen };
         seen.add(match self.scatter(&mut path, &at, draws) {
             true => self.follow(path, draws, first),
-            false => path.seen(),
+            false => path.seen,
         });
         seen
     }
@@ -196,7 +130,7 @@ impl Eye<'_> {
         loop {
             let mut at = self.walk(&mut path, draws);
             if !self.arrive(&mut path, &mut at, first) || !self.scatter(&mut path, &at, draws) {
-                return path.seen();
+                return path.seen;
             }
         }
     }
@@ -245,8 +179,7 @@ impl Eye<'_> {
             bounces: 0,
             collisions: 0,
             crossings: 0,
-            light: Spectrum::ZERO,
-            glints: Spectrum::ZERO,
+            seen: Seen::default(),
             share: 1.0,
         }
     }
@@ -283,7 +216,7 @@ impl Eye<'_> {
         let (flown, emitted) =
             walk::fly_watched(self.world, ray, *visible, set, *throughput, sampler, stats, watch);
         draws.stats.rays += rays;
-        path.light += path.throughput * emitted + carried * gathered;
+        path.seen.light += path.throughput * emitted + carried * gathered;
         flown
     }
 

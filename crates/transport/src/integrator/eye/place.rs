@@ -31,15 +31,15 @@ impl Eye<'_> {
             if let Some(photons) = &self.photons
                 && Place::in_medium(medium) == Place::Grid
             {
-                path.light += self.gather_in_volume(path, place, wo, photons, draws);
+                path.seen.light += self.gather_in_volume(path, place, wo, photons, draws);
             }
             let chance = if path.collisions < MANY_COLLISIONS { 1.0 } else { CHANCE_AFTER_MANY };
             if chance == 1.0 || draws.sampler.next_1d() < chance {
                 let light = self.sampled_light_in_volume(path, place, wo, draws);
-                path.light += path.throughput * light * (1.0 / chance);
+                path.seen.light += path.throughput * light * (1.0 / chance);
             }
             if let Some(cones) = &aim {
-                path.light += self.aimed_light_in_volume(path, place, wo, cones, draws);
+                path.seen.light += self.aimed_light_in_volume(path, place, wo, cones, draws);
             }
         }
         let phase = in_volume::phase_at(self.world, place);

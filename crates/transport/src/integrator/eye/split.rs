@@ -41,8 +41,7 @@ impl Eye<'_> {
         while let Some(mut path) = next {
             let mut at = self.walk(&mut path, draws);
             let goes_on = self.arrive(&mut path, &mut at, first);
-            seen.add(path.seen());
-            (path.light, path.glints) = (Spectrum::ZERO, Spectrum::ZERO);
+            seen.add(std::mem::take(&mut path.seen));
             let is_polished = matches!(&at, Flown::Arrived(Event::Surface(v)) if v.bsdf.is_delta());
             next = if !goes_on {
                 waiting.pop()
@@ -69,7 +68,7 @@ impl Eye<'_> {
             return None;
         }
         let [Some(first), Some(second)] = vertex.bsdf.branches(-path.ray.direction) else { return None };
-        let share = |branch| share(branch, self.world.lanes);
+        let share = |branch: &Branch| share(branch.weight, branch.eta_scale, self.world.lanes);
         let (strong, faint) = if share(&first) >= share(&second) { (first, second) } else { (second, first) };
         if self.carried(path) * share(&faint) < FAINTEST {
             return None;
@@ -122,9 +121,11 @@ impl Chosen {
     }
 }
 
-/// What goes the way of a branch, of the light that comes there.
-pub(super) fn share(branch: &Branch, lanes: usize) -> f32 {
-    branch.weight.max_lane(lanes) / branch.eta_scale
+/// What a polished surface sends one way, of the light that comes to it.
+///
+/// - `weight`: of the way if it is taken for certain.
+pub(super) fn share(weight: Spectrum, eta_scale: f32, lanes: usize) -> f32 {
+    weight.max_lane(lanes) / eta_scale
 }
 
 /// A branch that is taken for certain.

@@ -3,7 +3,7 @@
 use super::merges::{Beyond, Passed, Place};
 use super::radius::INDIRECT;
 use super::weight::{self, Side};
-use super::{Draws, Eye, Path, reach};
+use super::{Draws, Eye, Path, reach, split};
 use crate::integrator::merging::{Landed, LandedPhoton, Photons};
 use crate::photon::specular::is_specular;
 use crate::shadow;
@@ -24,11 +24,11 @@ impl Eye<'_> {
         let aim = self.aim.filter(|_| is_wide).and_then(|aim| aim.at_surface(vertex, wo));
         if !is_delta && self.may_bounce(path) {
             if let Some(photons) = &self.photons {
-                path.light += self.gather(path, vertex, wo, photons, draws);
+                path.seen.light += self.gather(path, vertex, wo, photons, draws);
             }
-            path.light += path.throughput * self.sampled_light(path, vertex, wo, draws);
+            path.seen.light += path.throughput * self.sampled_light(path, vertex, wo, draws);
             if let Some(cones) = &aim {
-                path.light += self.aimed_light(path, vertex, wo, cones, draws);
+                path.seen.light += self.aimed_light(path, vertex, wo, cones, draws);
             }
         }
         let (u_lobe, u) = (draws.sampler.next_1d(), draws.sampler.next_2d());
@@ -53,7 +53,7 @@ impl Eye<'_> {
         path.last.record(vertex, scattered);
         if scattered.is_delta {
             path.share *= match vertex.bsdf.is_delta() {
-                true => (scattered.weight * scattered.pdf).max_lane(self.world.lanes) / scattered.eta_scale,
+                true => split::share(scattered.weight * scattered.pdf, scattered.eta_scale, self.world.lanes),
                 // Of a coat, only chance sees what it mirrors.
                 false => 0.0,
             };

@@ -15,14 +15,13 @@ use hyaline_sampling::Sampler;
 use hyaline_spectrum::Spectrum;
 use rayon::prelude::*;
 
-/// Looks at a pixel in a pass, that of its path among them. Speckles are no more than half of the error of all else then.
+/// Looks at a pixel in a pass, that of its path among them: docs/merging.md tells what more and fewer do.
 const LOOKS: u32 = 4;
 /// Cells along the longer side of a picture, at most: where a cell or one beside it shows something polished, all its
 /// pixels are looked at.
 const CELLS: u32 = 96;
-/// Pixels of a cell that are looked at first, and how often each.
+/// Pixels of a cell that are looked at first, each twice.
 const FIRST_PIXELS: u32 = 4;
-const FIRST_LOOKS: u32 = 2;
 /// Squared relative error of a pass by glints above which they are worth more looks.
 const WORTH: f32 = 0.01;
 /// Turns the seed of the picture into those of first looks and of others.
@@ -146,11 +145,10 @@ impl Cells {
             let along = (2 * at + 1) * self.side / (2 * FIRST_PIXELS);
             let pixel = (x * self.side + along, y * self.side + along);
             let before = stats.rays;
-            let [a, b] = [0, 1].map(|i| {
-                look(eye, view, &settings, (pixel, FIRST_LOOKS * at + i), &mut stats).mean(eye.world.lanes)
-            });
-            // Where nothing is polished, looks end with the rays of the camera.
-            if stats.rays - before > FIRST_LOOKS.into() {
+            let [a, b] = [2 * at, 2 * at + 1]
+                .map(|number| look(eye, view, &settings, (pixel, number), &mut stats).mean(eye.world.lanes));
+            // Where nothing is polished, looks end with the two rays of the camera.
+            if stats.rays - before > 2 {
                 found.is_polished = true;
                 if a.is_finite() && b.is_finite() {
                     found.variance += 0.5 * (a - b) * (a - b) / FIRST_PIXELS as f32;

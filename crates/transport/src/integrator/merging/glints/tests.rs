@@ -40,10 +40,7 @@ fn with_and_without(world: &World, passes: u32) -> ([Moments; 2], [f64; 2]) {
     let eye = Eye { world, settings: &settings, aim: None, photons: None };
     let (view, mut stats) = (view(), Stats::default());
     let glints = Glints::find(&eye, &view, LIGHT, &mut stats).expect("glints in glass");
-    let mut pictures = [const { Vec::new() }; 2].map(|mut all: Vec<Moments>| {
-        all.resize_with(passes as usize, Moments::new);
-        all
-    });
+    let mut pictures = [(); 2].map(|()| vec![Moments::new(); passes as usize]);
     let mut varies = [0.0; 2];
     for y in 0..SIZE {
         for x in 0..SIZE {
