@@ -4,7 +4,7 @@
 //! instances share. Distances are always those along the ray in the world.
 
 use crate::bvh::{
-    self, Any, BoxRay, Closest, Every, Lanes, MeshBvh, Query, SimdLevel, Sink, SlabRay, Tree, VerifiedLevel,
+    self, Any, Closest, Every, Lanes, MeshBvh, Query, SimdLevel, Sink, SlabRay, Tree, VerifiedLevel,
     Visitor,
 };
 use crate::hit::{Candidate, SurfaceHit, Tangents};
@@ -191,7 +191,6 @@ impl<K: Sink> Query for Search<'_, K> {
         let local = LocalRay::from_world(self.ray);
         let tree = &self.aggregate.tree;
         let slabs = SlabRay::new(&local);
-        let box_ray = BoxRay::new(&slabs, tree);
         let items = &self.aggregate.items;
         let mut leaves = Leaves {
             lanes,
@@ -203,7 +202,7 @@ impl<K: Sink> Query for Search<'_, K> {
             sink: self.sink,
         };
         // Whether the sink broke off is of no interest: it knows what it took.
-        let _ = bvh::traverse(lanes, tree, &box_ray, &mut leaves);
+        let _ = bvh::traverse(lanes, tree, &slabs, &mut leaves);
     }
 }
 

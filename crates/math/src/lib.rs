@@ -11,6 +11,6 @@ pub mod transform;
 
 pub use bounds::Bounds;
 pub use frame::Frame;
-pub use glam::{DMat3, DVec2, DVec3, Mat3, Vec2, Vec3, Vec4};
+pub use glam::{DMat3, DVec2, DVec3, Mat3, Vec2, Vec3, Vec3A, Vec4};
 pub use ray::{Ray, offset_origin};
 pub use transform::Transform;

@@ -3,7 +3,7 @@
 use super::collapse;
 use super::node::{BLOCK, Block, Tree};
 use super::query::Sink;
-use super::ray::{BoxRay, FilterRay, SlabRay};
+use super::ray::{FilterRay, SlabRay};
 use super::simd::{Lanes, prefetch, with_capacity_in_large_pages};
 use super::traverse::{Visitor, traverse};
 use crate::hit::Candidate;
@@ -56,7 +56,7 @@ impl MeshBvh {
     ) -> ControlFlow<()> {
         let registers = lanes.prepare_triangles(&FilterRay::new(ray, slabs, &self.tree));
         let mut faces = Faces { lanes, registers, blocks: &self.blocks, ray, item, sink };
-        traverse(lanes, &self.tree, &BoxRay::new(slabs, &self.tree), &mut faces)
+        traverse(lanes, &self.tree, slabs, &mut faces)
     }
 }
 

@@ -26,6 +26,6 @@ pub use simd::{SimdLevel, with_capacity_in_large_pages};
 pub(crate) use collapse::build;
 pub(crate) use node::Tree;
 pub(crate) use query::{Any, Closest, Every, Sink};
-pub(crate) use ray::{BoxRay, SlabRay};
+pub(crate) use ray::SlabRay;
 pub(crate) use simd::{Lanes, Query, VerifiedLevel};
 pub(crate) use traverse::{Visitor, traverse};

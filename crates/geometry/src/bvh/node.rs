@@ -1,6 +1,6 @@
 //! The memory layout of trees: nodes of eight boxes, blocks of eight triangles.
 
-use hyaline_math::{Bounds, Vec3};
+use hyaline_math::{Bounds, Vec3, Vec3A};
 
 /// Children of a node.
 pub(crate) const WIDTH: usize = 8;
@@ -131,7 +131,7 @@ impl Tree {
 
     /// Largest absolute coordinate along each axis.
     #[inline(always)]
-    pub(crate) fn reach(&self) -> Vec3 {
-        self.bounds.min.abs().max(self.bounds.max.abs())
+    pub(crate) fn reach(&self) -> Vec3A {
+        self.bounds.min.to_vec3a().abs().max(self.bounds.max.to_vec3a().abs())
     }
 }

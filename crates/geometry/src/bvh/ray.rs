@@ -12,7 +12,7 @@
 
 use super::node::Tree;
 use crate::mesh::triangle::LocalRay;
-use hyaline_math::Vec3;
+use hyaline_math::Vec3A;
 
 /// Unit roundoff of `f32`.
 const ROUNDOFF: f32 = f32::EPSILON / 2.0;
@@ -20,26 +20,31 @@ const ROUNDOFF: f32 = f32::EPSILON / 2.0;
 /// The parts of a prepared ray that are the same for all trees in one space.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct SlabRay {
-    origin: Vec3,
-    inverse: Vec3,
-    /// 1 or -1 by the sign of the direction.
-    side: Vec3,
+    origin: Vec3A,
+    /// One over the direction.
+    inverse: Vec3A,
+    /// Rows of the near planes: the upper one of each axis along which the ray goes down.
+    near_rows: [usize; 3],
     t_min: f32,
 }
 
 impl SlabRay {
     #[inline(always)]
     pub(crate) fn new(ray: &LocalRay) -> Self {
-        let direction = ray.direction.as_vec3();
-        let side = Vec3::ONE.copysign(direction);
-        let size = direction.abs();
-        let inverse = size.max(Vec3::splat(1e-12 * size.max_element())).copysign(direction).recip();
-        Self { origin: ray.origin.as_vec3(), inverse, side, t_min: ray.t_min }
+        let size = ray.direction.abs();
+        let least = Vec3A::splat(1e-12 * size.max_element());
+        let downward = ray.direction.is_negative_bitmask() as usize;
+        Self {
+            origin: ray.origin,
+            inverse: size.max(least).copysign(ray.direction).recip(),
+            near_rows: [downward & 1, 2 + (downward >> 1 & 1), 4 + (downward >> 2 & 1)],
+            t_min: ray.t_min,
+        }
     }
 
     /// For each axis the largest coordinate of the tree plus that of the origin.
     #[inline(always)]
-    fn sums(&self, tree: &Tree) -> Vec3 {
+    fn sums(&self, tree: &Tree) -> Vec3A {
         tree.reach() + self.origin.abs()
     }
 }
@@ -48,13 +53,13 @@ impl SlabRay {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct BoxRay {
     /// One over the direction.
-    pub(crate) inverse: [f32; 3],
+    pub(crate) inverse: Vec3A,
     /// Origin over direction, moved so that the near planes come early.
-    pub(crate) near: [f32; 3],
+    pub(crate) near: Vec3A,
     /// Origin over direction, moved so that the far planes come late.
-    pub(crate) far: [f32; 3],
-    /// 1 along the axes where the upper plane is the near one, else 0.
-    pub(crate) is_downward: [usize; 3],
+    pub(crate) far: Vec3A,
+    /// Rows of the near planes; the far ones are their neighbors.
+    pub(crate) near_rows: [usize; 3],
     pub(crate) t_min: f32,
 }
 
@@ -62,17 +67,13 @@ impl BoxRay {
     #[inline(always)]
     pub(crate) fn new(ray: &SlabRay, tree: &Tree) -> Self {
         let sums = ray.sums(tree);
-        let padding = sums * (10.0 * ROUNDOFF) + Vec3::splat(1e-11 * sums.max_element() + 1e-30);
-        let padding = padding * ray.side;
+        let padding = sums * (10.0 * ROUNDOFF) + Vec3A::splat(1e-11 * sums.max_element() + 1e-30);
+        let padding = padding.copysign(ray.inverse);
         Self {
-            inverse: ray.inverse.to_array(),
-            near: ((ray.origin + padding) * ray.inverse).to_array(),
-            far: ((ray.origin - padding) * ray.inverse).to_array(),
-            is_downward: [
-                usize::from(ray.side.x < 0.0),
-                usize::from(ray.side.y < 0.0),
-                usize::from(ray.side.z < 0.0),
-            ],
+            inverse: ray.inverse,
+            near: (ray.origin + padding) * ray.inverse,
+            far: (ray.origin - padding) * ray.inverse,
+            near_rows: ray.near_rows,
             t_min: ray.t_min,
         }
     }
@@ -98,14 +99,13 @@ pub(crate) struct FilterRay {
 impl FilterRay {
     #[inline(always)]
     pub(crate) fn new(ray: &LocalRay, slabs: &SlabRay, tree: &Tree) -> Self {
-        let [x, y, z] = ray.axes;
         let vertex_error = 10.0 * ROUNDOFF * slabs.sums(tree).max_element() + 1e-30;
         let inverse_z = ray.inverse_z as f32;
         let t_error = vertex_error * inverse_z.abs();
         Self {
             axes: ray.axes,
-            origin: [slabs.origin[x], slabs.origin[y], slabs.origin[z]],
-            shear: [ray.shear[0] as f32, ray.shear[1] as f32],
+            origin: ray.turned_origin.map(|x| x as f32),
+            shear: ray.shear.map(|x| x as f32),
             inverse_z,
             vertex_error,
             t_error,

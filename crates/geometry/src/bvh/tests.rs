@@ -1,5 +1,5 @@
 use super::node::{Block, Child, MAX_DEPTH, Node};
-use super::ray::{FilterRay, SlabRay};
+use super::ray::{BoxRay, FilterRay, SlabRay};
 use super::simd::Stack;
 use super::*;
 use crate::mesh::triangle::LocalRay;
@@ -178,7 +178,7 @@ impl Visitor for Count {
     }
 }
 
-struct Descend<'a>(&'a Tree, &'a BoxRay, &'a mut Count);
+struct Descend<'a>(&'a Tree, &'a SlabRay, &'a mut Count);
 
 impl Query for Descend<'_> {
     type Output = ();
@@ -213,8 +213,7 @@ fn boxes_that_shrink_geometrically_do_not_overflow_the_stack() {
         let ray = LocalRay::from_world(&Ray::new(Vec3::splat(-1.0), Vec3::ONE.normalize()));
         for level in levels() {
             let mut visitor = Count { leaves: Vec::new() };
-            let box_ray = BoxRay::new(&SlabRay::new(&ray), &tree);
-            VerifiedLevel::new(level).run(Descend(&tree, &box_ray, &mut visitor));
+            VerifiedLevel::new(level).run(Descend(&tree, &SlabRay::new(&ray), &mut visitor));
             visitor.leaves.sort_unstable();
             assert!(visitor.leaves.iter().copied().eq(0..count), "{level:?}");
         }
@@ -248,8 +247,7 @@ fn a_tree_of_parts_has_each_box_once_where_a_ray_finds_it() {
         let local = LocalRay::from_world(&ray);
         for level in levels() {
             let mut visitor = Count { leaves: Vec::new() };
-            let box_ray = BoxRay::new(&SlabRay::new(&local), &tree);
-            VerifiedLevel::new(level).run(Descend(&tree, &box_ray, &mut visitor));
+            VerifiedLevel::new(level).run(Descend(&tree, &SlabRay::new(&local), &mut visitor));
             let shown: Vec<u32> = visitor.leaves.iter().flat_map(|&leaf| leaves.get(leaf)).copied().collect();
             for (i, bounds) in boxes.iter().enumerate() {
                 if slab(&ray, bounds).is_some() {

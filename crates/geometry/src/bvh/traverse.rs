@@ -1,7 +1,7 @@
 //! The descent of a ray through a tree, nearest child first.
 
 use super::node::{Child, Node, Tree};
-use super::ray::BoxRay;
+use super::ray::{BoxRay, SlabRay};
 use super::simd::{Lanes, Nears, Stack, prefetch};
 use std::ops::ControlFlow;
 
@@ -22,13 +22,16 @@ pub(crate) trait Visitor {
 pub(crate) fn traverse<L: Lanes, V: Visitor>(
     lanes: L,
     tree: &Tree,
-    ray: &BoxRay,
+    ray: &SlabRay,
     visitor: &mut V,
 ) -> ControlFlow<()> {
     let Some(mut current) = tree.root else {
         return ControlFlow::Continue(());
     };
-    let boxes = lanes.prepare_boxes(ray);
+    if current.is_leaf() {
+        return visitor.leaf(current.index());
+    }
+    let boxes = lanes.prepare_boxes(&BoxRay::new(ray, tree));
     let mut stack = Stack::new();
     loop {
         let mut next = Some(current);

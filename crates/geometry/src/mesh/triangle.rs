@@ -14,20 +14,24 @@
 //! Source: Woop, Benthin, Wald, Watertight Ray/Triangle Intersection, JCGT 2(1), 2013, here in `f64`; the step aside:
 //! Edelsbrunner and Mücke, Simulation of Simplicity, ACM TOG 9(1), 1990.
 
-use hyaline_math::{DVec3, Ray, Transform, Vec2};
+use hyaline_math::{DVec3, Ray, Transform, Vec2, Vec3A};
+
+/// The axes in order, each of them last once.
+const TURNS: [[usize; 3]; 3] = [[1, 2, 0], [2, 0, 1], [0, 1, 2]];
 
 /// A ray in the space of a mesh; distances along it are those of the world.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct LocalRay {
-    pub(crate) origin: DVec3,
-    /// Of any length: a mesh may be placed with a scale.
-    pub(crate) direction: DVec3,
+    /// Rounded.
+    pub(crate) origin: Vec3A,
+    /// Rounded; of any length: a mesh may be placed with a scale.
+    pub(crate) direction: Vec3A,
     pub(crate) t_min: f32,
     pub(crate) t_max: f32,
     /// The axes, the one of the largest component of the direction last.
     pub(crate) axes: [usize; 3],
     /// The origin, its coordinates in the order of `axes`.
-    turned_origin: [f64; 3],
+    pub(crate) turned_origin: [f64; 3],
     /// Direction along the first two axes for a unit step along the third.
     pub(crate) shear: [f64; 2],
     pub(crate) inverse_z: f64,
@@ -53,18 +57,28 @@ impl LocalRay {
         Self::new(origin, transform.inverse_vector(ray.direction.as_dvec3()), ray)
     }
 
+    #[inline(always)]
     fn new(origin: DVec3, direction: DVec3, ray: &Ray) -> Self {
         let size = direction.abs();
-        let z = match (size.x > size.y, size.x > size.z, size.y > size.z) {
-            (true, true, _) => 0,
-            (false, _, true) => 1,
-            _ => 2,
+        // Without a branch: which axis it is can't be foreseen.
+        let is_x = (size.x > size.y) & (size.x > size.z);
+        let is_y = !(size.x > size.y) & (size.y > size.z);
+        let axes = TURNS[2 - 2 * usize::from(is_x) - usize::from(is_y)];
+        let turned = |v: DVec3| {
+            let v = [v.x, v.y, v.z, 0.0];
+            axes.map(|axis| v[axis & 3])
         };
-        let axes = [(z + 1) % 3, (z + 2) % 3, z];
-        let shear = [direction[axes[0]] / direction[z], direction[axes[1]] / direction[z]];
-        let inverse_z = 1.0 / direction[z];
-        let turned_origin = axes.map(|axis| origin[axis]);
-        Self { origin, direction, t_min: ray.t_min, t_max: ray.t_max, axes, turned_origin, shear, inverse_z }
+        let [x, y, z] = turned(direction);
+        Self {
+            origin: origin.as_vec3a(),
+            direction: direction.as_vec3a(),
+            t_min: ray.t_min,
+            t_max: ray.t_max,
+            axes,
+            turned_origin: turned(origin),
+            shear: [x / z, y / z],
+            inverse_z: 1.0 / z,
+        }
     }
 
     /// A vertex in the frame of the ray; z is not yet scaled.
@@ -88,11 +102,15 @@ impl LocalRay {
         }
         let sum = u.value + v.value + w.value;
         // A projection so thin that all products round to equality: any point of it will do.
-        let [u, v, w] =
-            if sum == 0.0 { [1.0 / 3.0; 3] } else { [u.value / sum, v.value / sum, w.value / sum] };
-        let t = (u * a[2] + v * b[2] + w * c[2]) * self.inverse_z;
+        let [u, v, w, sum] =
+            if sum == 0.0 { [1.0, 1.0, 1.0, 3.0] } else { [u.value, v.value, w.value, sum] };
+        let inverse_sum = 1.0 / sum;
+        let t = (u * a[2] + v * b[2] + w * c[2]) * (inverse_sum * self.inverse_z);
         let within = t > f64::from(self.t_min) && t < f64::from(self.t_max);
-        within.then(|| TriangleHit { t: self.round_inside(t), barycentric: Vec2::new(v as f32, w as f32) })
+        within.then(|| {
+            let [v, w] = [v, w].map(|weight| (weight * inverse_sum) as f32);
+            TriangleHit { t: self.round_inside(t), barycentric: Vec2::new(v, w) }
+        })
     }
 
     /// The same for corners as they are.

@@ -121,8 +121,8 @@ impl Lanes for Scalar {
         let mut nears = Nears([ray.t_min; 8]);
         let mut fars = [limit; 8];
         for axis in 0..3 {
-            let near_plane = &node.planes[2 * axis + ray.is_downward[axis]];
-            let far_plane = &node.planes[2 * axis + 1 - ray.is_downward[axis]];
+            let near_plane = &node.planes[ray.near_rows[axis]];
+            let far_plane = &node.planes[ray.near_rows[axis] ^ 1];
             for slot in 0..8 {
                 nears.0[slot] = nears.0[slot].max(near_plane[slot] * ray.inverse[axis] - ray.near[axis]);
                 fars[slot] = fars[slot].min(far_plane[slot] * ray.inverse[axis] - ray.far[axis]);

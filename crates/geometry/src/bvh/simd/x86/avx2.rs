@@ -1,7 +1,7 @@
 //! Eight numbers at a time, with fused steps. Loads are from references to arrays of the full width, so they are always
 //! in bounds.
 
-use super::{Boxes, near_rows};
+use super::{Boxes, ROW};
 use crate::bvh::node::{Block, Node};
 use crate::bvh::ray::{BoxRay, FilterRay};
 use crate::bvh::simd::{Lanes, Nears, Query};
@@ -28,27 +28,28 @@ impl Lanes for Avx2 {
         unsafe {
             Boxes {
                 inverse: [
-                    _mm256_set1_ps(ray.inverse[0]),
-                    _mm256_set1_ps(ray.inverse[1]),
-                    _mm256_set1_ps(ray.inverse[2]),
+                    _mm256_set1_ps(ray.inverse.x),
+                    _mm256_set1_ps(ray.inverse.y),
+                    _mm256_set1_ps(ray.inverse.z),
                 ],
-                near: [_mm256_set1_ps(ray.near[0]), _mm256_set1_ps(ray.near[1]), _mm256_set1_ps(ray.near[2])],
-                far: [_mm256_set1_ps(ray.far[0]), _mm256_set1_ps(ray.far[1]), _mm256_set1_ps(ray.far[2])],
+                near: [_mm256_set1_ps(ray.near.x), _mm256_set1_ps(ray.near.y), _mm256_set1_ps(ray.near.z)],
+                far: [_mm256_set1_ps(ray.far.x), _mm256_set1_ps(ray.far.y), _mm256_set1_ps(ray.far.z)],
                 t_min: _mm256_set1_ps(ray.t_min),
-                rows: near_rows(ray),
+                starts: ray.near_rows.map(|row| row % 6 * ROW),
             }
         }
     }
 
     #[inline(always)]
     fn hit_boxes(self, ray: &Self::Boxes, node: &Node, limit: f32) -> (Nears, u32) {
-        // SAFETY: `self` proves that the processor has AVX2 and FMA; rows are 8 wide and there are 6 of them.
+        let planes = node.planes.as_ptr().cast::<f32>();
+        // SAFETY: `self` proves that the processor has AVX2 and FMA; planes start at multiples of `ROW` below 6 `ROW`.
         unsafe {
             let mut begin = ray.t_min;
             let mut end = _mm256_set1_ps(limit);
             for axis in 0..3 {
-                let near = _mm256_load_ps(node.planes.get_unchecked(ray.rows[axis]).as_ptr());
-                let far = _mm256_load_ps(node.planes.get_unchecked(ray.rows[axis] ^ 1).as_ptr());
+                let near = _mm256_load_ps(planes.add(ray.starts[axis]));
+                let far = _mm256_load_ps(planes.add(ray.starts[axis] ^ ROW));
                 begin = _mm256_max_ps(_mm256_fmsub_ps(near, ray.inverse[axis], ray.near[axis]), begin);
                 end = _mm256_min_ps(_mm256_fmsub_ps(far, ray.inverse[axis], ray.far[axis]), end);
             }

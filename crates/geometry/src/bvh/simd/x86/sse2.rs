@@ -1,6 +1,6 @@
 //! Four numbers at a time. Loads are from references to arrays of the full width, so they are always in bounds.
 
-use super::{Boxes, near_rows};
+use super::{Boxes, ROW};
 use crate::bvh::node::{Block, Node};
 use crate::bvh::ray::{BoxRay, FilterRay};
 use crate::bvh::simd::{Lanes, Nears};
@@ -29,11 +29,11 @@ impl Lanes for Sse2 {
     #[inline(always)]
     fn prepare_boxes(self, ray: &BoxRay) -> Self::Boxes {
         Boxes {
-            inverse: splat3(ray.inverse),
-            near: splat3(ray.near),
-            far: splat3(ray.far),
+            inverse: splat3(ray.inverse.to_array()),
+            near: splat3(ray.near.to_array()),
+            far: splat3(ray.far.to_array()),
             t_min: splat(ray.t_min),
-            rows: near_rows(ray),
+            starts: ray.near_rows.map(|row| row % 6 * ROW),
         }
     }
 
@@ -41,14 +41,15 @@ impl Lanes for Sse2 {
     fn hit_boxes(self, ray: &Self::Boxes, node: &Node, limit: f32) -> (Nears, u32) {
         let mut nears = Nears([0.0; 8]);
         let mut hits = 0;
+        let planes = node.planes.as_ptr().cast::<f32>();
         for half in [0, 4] {
-            // SAFETY: SSE2 is part of x86-64; rows are 8 wide and there are 6 of them.
+            // SAFETY: SSE2 is part of x86-64; planes start at multiples of `ROW` below 6 `ROW`.
             unsafe {
                 let mut begin = ray.t_min;
                 let mut end = splat(limit);
                 for axis in 0..3 {
-                    let near = _mm_load_ps(node.planes.get_unchecked(ray.rows[axis]).as_ptr().add(half));
-                    let far = _mm_load_ps(node.planes.get_unchecked(ray.rows[axis] ^ 1).as_ptr().add(half));
+                    let near = _mm_load_ps(planes.add(ray.starts[axis] + half));
+                    let far = _mm_load_ps(planes.add((ray.starts[axis] ^ ROW) + half));
                     let (near, far) =
                         (_mm_mul_ps(near, ray.inverse[axis]), _mm_mul_ps(far, ray.inverse[axis]));
                     begin = _mm_max_ps(_mm_sub_ps(near, ray.near[axis]), begin);
