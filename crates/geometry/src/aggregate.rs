@@ -4,8 +4,7 @@
 //! instances share. Distances are always those along the ray in the world.
 
 use crate::bvh::{
-    self, Any, Closest, Every, Lanes, MeshBvh, Query, SimdLevel, Sink, SlabRay, Tree, VerifiedLevel,
-    Visitor,
+    self, Any, Closest, Every, Lanes, MeshBvh, Query, SimdLevel, Sink, SlabRay, Tree, VerifiedLevel, Visitor,
 };
 use crate::hit::{Candidate, SurfaceHit, Tangents};
 use crate::mesh::triangle::LocalRay;

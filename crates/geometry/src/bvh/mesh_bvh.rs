@@ -89,9 +89,7 @@ impl<L: Lanes, K: Sink> Visitor for Faces<'_, L, K> {
 
     #[inline(always)]
     fn prefetch(&self, index: usize) {
-        if let Some(block) = self.blocks.get(index) {
-            prefetch(block);
-        }
+        prefetch(self.blocks, index);
     }
 
     #[inline(always)]

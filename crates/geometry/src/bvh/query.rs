@@ -32,6 +32,15 @@ impl Closest {
     }
 }
 
+impl Closest {
+    #[cold]
+    fn tie(&mut self, hit: Candidate) {
+        if (hit.item, hit.primitive) < (self.best.item, self.best.primitive) {
+            self.best = hit;
+        }
+    }
+}
+
 impl Sink for Closest {
     const WANTS_EVERY: bool = false;
     const IS_ORDERED: bool = true;
@@ -43,11 +52,10 @@ impl Sink for Closest {
 
     #[inline(always)]
     fn take(&mut self, hit: Candidate) -> ControlFlow<()> {
-        let is_nearer = hit.t < self.best.t;
-        let is_first =
-            hit.t == self.best.t && (hit.item, hit.primitive) < (self.best.item, self.best.primitive);
-        if is_nearer || is_first {
+        if hit.t < self.best.t {
             self.best = hit;
+        } else if hit.t == self.best.t {
+            self.tie(hit);
         }
         ControlFlow::Continue(())
     }

@@ -38,7 +38,8 @@ impl SlabRay {
             origin: ray.origin,
             inverse: size.max(least).copysign(ray.direction).recip(),
             near_rows: [downward & 1, 2 + (downward >> 1 & 1), 4 + (downward >> 2 & 1)],
-            t_min: ray.t_min,
+            // Not -0, whose bits are those of a late distance.
+            t_min: ray.t_min + 0.0,
         }
     }
 

@@ -86,8 +86,8 @@ fn choose<V: Visitor>(
         let child = child_of(entry);
         if child.is_leaf() {
             visitor.prefetch(child.index());
-        } else if let Some(node) = tree.nodes.get(child.index()) {
-            prefetch(node);
+        } else {
+            prefetch(&tree.nodes, child.index());
         }
     };
     let (second, mut has_more) = take();

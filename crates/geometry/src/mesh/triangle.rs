@@ -62,7 +62,7 @@ impl LocalRay {
         let size = direction.abs();
         // Without a branch: which axis it is can't be foreseen.
         let is_x = (size.x > size.y) & (size.x > size.z);
-        let is_y = !(size.x > size.y) & (size.y > size.z);
+        let is_y = (size.y >= size.x) & (size.y > size.z);
         let axes = TURNS[2 - 2 * usize::from(is_x) - usize::from(is_y)];
         let turned = |v: DVec3| {
             let v = [v.x, v.y, v.z, 0.0];
@@ -102,8 +102,7 @@ impl LocalRay {
         }
         let sum = u.value + v.value + w.value;
         // A projection so thin that all products round to equality: any point of it will do.
-        let [u, v, w, sum] =
-            if sum == 0.0 { [1.0, 1.0, 1.0, 3.0] } else { [u.value, v.value, w.value, sum] };
+        let [u, v, w, sum] = if sum == 0.0 { [1.0, 1.0, 1.0, 3.0] } else { [u.value, v.value, w.value, sum] };
         let inverse_sum = 1.0 / sum;
         let t = (u * a[2] + v * b[2] + w * c[2]) * (inverse_sum * self.inverse_z);
         let within = t > f64::from(self.t_min) && t < f64::from(self.t_max);

@@ -3,17 +3,18 @@
 use crate::bvh::node::STACK_SIZE;
 use std::mem::MaybeUninit;
 
-/// Begins to load a value into the cache.
+/// Begins to load an item of a list into the cache; nothing happens where there is none.
 #[inline(always)]
-pub(crate) fn prefetch<T>(value: &T) {
+pub(crate) fn prefetch<T>(list: &[T], index: usize) {
+    let item = list.as_ptr().wrapping_add(index);
     #[cfg(target_arch = "x86_64")]
     for line in 0..size_of::<T>().div_ceil(64) {
         use std::arch::x86_64::{_MM_HINT_T0, _mm_prefetch};
         // SAFETY: a prefetch changes nothing but the cache, whatever the address.
-        unsafe { _mm_prefetch::<_MM_HINT_T0>((&raw const *value).cast::<i8>().wrapping_add(64 * line)) };
+        unsafe { _mm_prefetch::<_MM_HINT_T0>(item.cast::<i8>().wrapping_add(64 * line)) };
     }
     #[cfg(not(target_arch = "x86_64"))]
-    let _ = value;
+    let _ = item;
 }
 
 /// Collects values in large pages; see [`with_capacity_in_large_pages`].

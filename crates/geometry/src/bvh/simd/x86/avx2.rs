@@ -45,15 +45,18 @@ impl Lanes for Avx2 {
         let planes = node.planes.as_ptr().cast::<f32>();
         // SAFETY: `self` proves that the processor has AVX2 and FMA; planes start at multiples of `ROW` below 6 `ROW`.
         unsafe {
-            let mut begin = ray.t_min;
-            let mut end = _mm256_set1_ps(limit);
-            for axis in 0..3 {
-                let near = _mm256_load_ps(planes.add(ray.starts[axis]));
-                let far = _mm256_load_ps(planes.add(ray.starts[axis] ^ ROW));
-                begin = _mm256_max_ps(_mm256_fmsub_ps(near, ray.inverse[axis], ray.near[axis]), begin);
-                end = _mm256_min_ps(_mm256_fmsub_ps(far, ray.inverse[axis], ray.far[axis]), end);
-            }
-            let hits = _mm256_movemask_ps(_mm256_cmp_ps::<_CMP_LE_OQ>(begin, end));
+            let plane = |start: usize| _mm256_load_ps(planes.add(start));
+            let [x, y, z] = ray.starts;
+            let near_x = _mm256_fmsub_ps(plane(x), ray.inverse[0], ray.near[0]);
+            let near_y = _mm256_fmsub_ps(plane(y), ray.inverse[1], ray.near[1]);
+            let near_z = _mm256_fmsub_ps(plane(z), ray.inverse[2], ray.near[2]);
+            let far_x = _mm256_fmsub_ps(plane(x ^ ROW), ray.inverse[0], ray.far[0]);
+            let far_y = _mm256_fmsub_ps(plane(y ^ ROW), ray.inverse[1], ray.far[1]);
+            let far_z = _mm256_fmsub_ps(plane(z ^ ROW), ray.inverse[2], ray.far[2]);
+            let begin = later(later(near_x, near_y), later(near_z, ray.t_min));
+            let end = earlier(earlier(far_x, far_y), earlier(far_z, _mm256_set1_ps(limit)));
+            // Distances are padded by more than their rounding: no box that matters begins where it ends.
+            let hits = _mm256_movemask_ps(is_greater(end, begin));
             let mut nears = Nears([0.0; 8]);
             _mm256_store_ps(nears.0.as_mut_ptr(), begin);
             (nears, hits as u32)
@@ -71,6 +74,34 @@ impl Lanes for Avx2 {
         // SAFETY: `self` proves that the processor has AVX2 and FMA.
         unsafe { filter(ray, block, limit) }
     }
+}
+
+/// The later of two distances, by their bits as integers, which takes a cycle instead of four. Of negative ones it
+/// is the wrong one; but those lose against the start of the ray, and a box that ends there is missed either way.
+#[inline]
+#[target_feature(enable = "avx2,fma")]
+fn later(a: __m256, b: __m256) -> __m256 {
+    _mm256_castsi256_ps(_mm256_max_epi32(_mm256_castps_si256(a), _mm256_castps_si256(b)))
+}
+
+/// The earlier of two distances, likewise.
+#[inline]
+#[target_feature(enable = "avx2,fma")]
+fn earlier(a: __m256, b: __m256) -> __m256 {
+    _mm256_castsi256_ps(_mm256_min_epi32(_mm256_castps_si256(a), _mm256_castps_si256(b)))
+}
+
+/// Whether a number is greater than one that is not negative, likewise.
+#[inline]
+#[target_feature(enable = "avx2,fma")]
+fn is_greater(a: __m256, b: __m256) -> __m256 {
+    _mm256_castsi256_ps(_mm256_cmpgt_epi32(_mm256_castps_si256(a), _mm256_castps_si256(b)))
+}
+
+#[inline]
+#[target_feature(enable = "avx2,fma")]
+fn negated(a: __m256) -> __m256 {
+    _mm256_xor_ps(a, _mm256_set1_ps(-0.0))
 }
 
 /// A ray for eight triangles at a time.
@@ -106,13 +137,16 @@ fn filter(ray: &Triangles, block: &Block, limit: f32) -> u32 {
     let [va, vb, vc] = &block.vertices;
     let (a, b, c) = (place(ray, va), place(ray, vb), place(ray, vc));
     let (u, v, w) = (edge(c, b), edge(a, c), edge(b, a));
-    let size = _mm256_max_ps(_mm256_max_ps(extent(a), extent(b)), extent(c));
+    let size = later(later(extent(a), extent(b)), extent(c));
     let error = _mm256_mul_ps(ray.edge_factor, _mm256_add_ps(size, ray.vertex_error));
-    let least = _mm256_min_ps(_mm256_min_ps(u, v), w);
-    let most = _mm256_max_ps(_mm256_max_ps(u, v), w);
     // Beside the triangle where one edge value is surely negative and another surely positive.
-    let is_negative = _mm256_cmp_ps::<_CMP_LT_OQ>(_mm256_add_ps(least, error), _mm256_setzero_ps());
-    let is_beside = _mm256_and_ps(is_negative, _mm256_cmp_ps::<_CMP_GT_OQ>(most, error));
+    let is_positive =
+        _mm256_or_ps(_mm256_or_ps(is_greater(u, error), is_greater(v, error)), is_greater(w, error));
+    let is_negative = _mm256_or_ps(
+        _mm256_or_ps(is_greater(negated(u), error), is_greater(negated(v), error)),
+        is_greater(negated(w), error),
+    );
+    let is_beside = _mm256_and_ps(is_negative, is_positive);
     let near = _mm256_mul_ps(ray.inverse_z, a[2]);
     let (tb, tc) = (_mm256_mul_ps(ray.inverse_z, b[2]), _mm256_mul_ps(ray.inverse_z, c[2]));
     let far = _mm256_max_ps(_mm256_max_ps(near, tb), tc);
@@ -150,5 +184,5 @@ fn edge(p: [__m256; 3], q: [__m256; 3]) -> __m256 {
 #[target_feature(enable = "avx2,fma")]
 fn extent(p: [__m256; 3]) -> __m256 {
     let sign = _mm256_set1_ps(-0.0);
-    _mm256_max_ps(_mm256_andnot_ps(sign, p[0]), _mm256_andnot_ps(sign, p[1]))
+    later(_mm256_andnot_ps(sign, p[0]), _mm256_andnot_ps(sign, p[1]))
 }
