@@ -101,12 +101,13 @@ impl FilterRay {
     #[inline(always)]
     pub(crate) fn new(ray: &LocalRay, slabs: &SlabRay, tree: &Tree) -> Self {
         let vertex_error = 10.0 * ROUNDOFF * slabs.sums(tree).max_element() + 1e-30;
+        let [x, y, z] = ray.turned_origin;
         let inverse_z = ray.inverse_z as f32;
         let t_error = vertex_error * inverse_z.abs();
         Self {
             axes: ray.axes,
-            origin: ray.turned_origin.map(|x| x as f32),
-            shear: ray.shear.map(|x| x as f32),
+            origin: [x as f32, y as f32, z as f32],
+            shear: [ray.shear[0] as f32, ray.shear[1] as f32],
             inverse_z,
             vertex_error,
             t_error,

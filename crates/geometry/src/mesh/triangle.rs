@@ -66,7 +66,7 @@ impl LocalRay {
         let axes = TURNS[2 - 2 * usize::from(is_x) - usize::from(is_y)];
         let turned = |v: DVec3| {
             let v = [v.x, v.y, v.z, 0.0];
-            axes.map(|axis| v[axis & 3])
+            [v[axes[0] & 3], v[axes[1] & 3], v[axes[2] & 3]]
         };
         let [x, y, z] = turned(direction);
         Self {
