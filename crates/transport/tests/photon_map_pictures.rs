@@ -71,7 +71,7 @@ fn light_through_a_water_surface_is_that_of_path_tracing() {
     ];
     for (what, world) in cases {
         let photon_map = PhotonMapSettings { caustic_photons: 60_000, ..few_photons() };
-        let maps = means(&world, "photon-map", photon_map, 3);
+        let maps = means(&world, "photon-map", photon_map, 24);
         let paths = means(&world, "path", photon_map, 64);
         assert_same(&maps, &paths, POWER, what);
     }
