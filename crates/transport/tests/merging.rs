@@ -32,7 +32,7 @@ fn means(world: &World, integrator: &str, passes: Range<u32>, power: f64) -> Mom
 }
 
 fn assert_as_path(world: &World, power: f64, what: &str) {
-    let (photons, paths) = (means(world, "merging", LATE, power), means(world, "path", 0..128, power));
+    let (photons, paths) = (means(world, "merging", LATE, power), means(world, "path", 0..64, power));
     assert_same(&photons, &paths, power, what);
 }
 
