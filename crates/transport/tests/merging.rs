@@ -236,22 +236,38 @@ fn a_point_is_a_very_small_lamp() {
     }
 }
 
+/// The first passes of a picture, by as many threads.
+fn bits(world: &World, techniques: Techniques, threads: usize) -> Vec<[f32; 3]> {
+    let settings = RenderSettings { techniques, ..settings() };
+    let shot = Shot { world, integrator: "merging", settings, size: (24, 24) };
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+    let mut all = Vec::new();
+    pool.install(|| {
+        shot.render(shot.full_frame(), 0..2, |_, samples| all.extend(samples.iter().map(|s| s.beauty)))
+    });
+    all
+}
+
 #[test]
 fn a_pass_has_the_same_bits_on_any_number_of_threads() {
-    let mut kit = hollow(lamp_ball);
-    fog(&mut kit);
-    let world = kit.world();
-    let shot = Shot { world: &world, integrator: "merging", settings: settings(), size: (8, 8) };
-    let render = |threads: usize| {
-        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-        let mut all = Vec::new();
-        pool.install(|| {
-            shot.render(shot.full_frame(), 0..2, |_, samples| all.extend(samples.iter().map(|s| s.beauty)))
-        });
-        all
-    };
-    let one = render(1);
-    assert!(one.iter().flatten().any(|&value| value > 0.0));
-    assert_eq!(one, render(2));
-    assert_eq!(one, render(3));
+    let mut foggy = hollow(lamp_ball);
+    fog(&mut foggy);
+    // Balls as small as these show the lamp as glints.
+    let mut glittering = hollow(|kit| {
+        kit.lamp("lamp", sphere(DVec3::new(-0.2, 0.3, -1.2), 0.05), 150.0);
+    });
+    for i in 0..9 {
+        let at = DVec3::new(0.1 * f64::from(i % 3 - 1), 0.1 * f64::from(i / 3 - 1), 0.3);
+        glittering.solid(&format!("ball {i}"), sphere(at, 0.049), "glass");
+    }
+    let [fog, glints] = [foggy, glittering].map(|kit| kit.world());
+    let all = Techniques::default();
+    for world in [&fog, &glints] {
+        let one = bits(world, all, 1);
+        assert!(one.iter().flatten().any(|&value| value > 0.0));
+        assert_eq!(one, bits(world, all, 2));
+        assert_eq!(one, bits(world, all, 3));
+    }
+    let without = Techniques { glints: false, ..all };
+    assert!(bits(&glints, all, 1) != bits(&glints, without, 1), "there are glints to look for again");
 }

@@ -1,10 +1,10 @@
 //! Times traversal against obvhs's own compressed 8-wide tree, on the same triangles and the same rays.
 //!
-//! `cargo bench -p hyaline-geometry --bench traversal` first prints a table of millions of rays a second on one thread, and
-//! the ratios, measured in turns so that a busy machine slows all alike; then criterion's own times. After `--`, a number sets
-//! how many triangles there are (default 1,000,000), and `--table` ends it after the table. Scenes: a rippled torus knot, a rippled sphere and 108 hollow balls,
-//! each in a closed room. Rays: from a camera, after two diffuse bounces, along chains of refraction and reflection at
-//! an index of 1.5, and towards a light.
+//! `cargo bench -p hyaline-geometry --bench traversal` first prints a table of millions of rays a second on one thread,
+//! and the ratios, measured in turns so that a busy machine slows all alike; then criterion's own times. After `--`, a
+//! number sets how many triangles there are (default 1,000,000), and `--table` ends it after the table. Scenes: a rippled
+//! torus knot, a rippled sphere and 108 hollow balls, each in a closed room. Rays: from a camera, after two diffuse
+//! bounces, along chains of refraction and reflection at an index of 1.5, and towards a light.
 
 mod rays;
 

@@ -32,15 +32,6 @@ impl Closest {
     }
 }
 
-impl Closest {
-    #[cold]
-    fn tie(&mut self, hit: Candidate) {
-        if (hit.item, hit.primitive) < (self.best.item, self.best.primitive) {
-            self.best = hit;
-        }
-    }
-}
-
 impl Sink for Closest {
     const WANTS_EVERY: bool = false;
     const IS_ORDERED: bool = true;
@@ -52,10 +43,11 @@ impl Sink for Closest {
 
     #[inline(always)]
     fn take(&mut self, hit: Candidate) -> ControlFlow<()> {
-        if hit.t < self.best.t {
+        let is_nearer = hit.t < self.best.t;
+        let is_first =
+            hit.t == self.best.t && (hit.item, hit.primitive) < (self.best.item, self.best.primitive);
+        if is_nearer || is_first {
             self.best = hit;
-        } else if hit.t == self.best.t {
-            self.tie(hit);
         }
         ControlFlow::Continue(())
     }

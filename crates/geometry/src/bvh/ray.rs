@@ -8,7 +8,8 @@
 //! - A component of the direction below 1e-12 of the largest is replaced by that; the ray then strays by less than
 //!   1e-11 of the scene's reach, which is added to the padding.
 //! - A vertex in the frame of the ray is off by less than E = 10 u D, where D is the largest of the sums S + |o|. An
-//!   edge value, the difference of two products of coordinates up to m, is then off by less than 6 E (m + E).
+//!   edge value, the difference of two products of coordinates up to m, is then off by less than 6 E (m + E). Products
+//!   overflow where m is beyond 1e19, and boxes are cut off before that.
 
 use super::node::Tree;
 use crate::mesh::triangle::LocalRay;

@@ -40,7 +40,7 @@ pub(crate) fn traverse<L: Lanes, V: Visitor>(
         {
             let node = &tree.nodes[child.index()];
             // What it holds is asked for last, but should be on its way with the boxes.
-            prefetch(std::slice::from_ref(&node.children), 0);
+            prefetch(&node.children, 0);
             let (nears, hits) = lanes.hit_boxes(&boxes, node, visitor.limit());
             next = choose(tree, visitor, &mut stack, node, &nears, hits);
         }

@@ -53,8 +53,8 @@ impl Lanes for Avx2 {
             let far_x = _mm256_fmsub_ps(plane(x ^ ROW), ray.inverse[0], ray.far[0]);
             let far_y = _mm256_fmsub_ps(plane(y ^ ROW), ray.inverse[1], ray.far[1]);
             let far_z = _mm256_fmsub_ps(plane(z ^ ROW), ray.inverse[2], ray.far[2]);
-            let begin = later(later(near_x, near_y), later(near_z, ray.t_min));
-            let end = earlier(earlier(far_x, far_y), earlier(far_z, _mm256_set1_ps(limit)));
+            let begin = larger(larger(near_x, near_y), larger(near_z, ray.t_min));
+            let end = smaller(smaller(far_x, far_y), smaller(far_z, _mm256_set1_ps(limit)));
             // Distances are padded by more than their rounding: no box that matters begins where it ends.
             let hits = _mm256_movemask_ps(is_greater(end, begin));
             let mut nears = Nears([0.0; 8]);
@@ -76,18 +76,18 @@ impl Lanes for Avx2 {
     }
 }
 
-/// The later of two distances, by their bits as integers, which takes a cycle instead of four. Of negative ones it
-/// is the wrong one; but those lose against the start of the ray, and a box that ends there is missed either way.
+/// The larger of two numbers by their bits as integers, which takes a cycle instead of four. Of two negative ones it is
+/// the smaller; so one number of a chain must not be negative, or the result must be of no use where none is.
 #[inline]
 #[target_feature(enable = "avx2,fma")]
-fn later(a: __m256, b: __m256) -> __m256 {
+fn larger(a: __m256, b: __m256) -> __m256 {
     _mm256_castsi256_ps(_mm256_max_epi32(_mm256_castps_si256(a), _mm256_castps_si256(b)))
 }
 
-/// The earlier of two distances, likewise.
+/// The smaller of two numbers likewise; of two negative ones the larger, which is negative all the same.
 #[inline]
 #[target_feature(enable = "avx2,fma")]
-fn earlier(a: __m256, b: __m256) -> __m256 {
+fn smaller(a: __m256, b: __m256) -> __m256 {
     _mm256_castsi256_ps(_mm256_min_epi32(_mm256_castps_si256(a), _mm256_castps_si256(b)))
 }
 
@@ -137,7 +137,7 @@ fn filter(ray: &Triangles, block: &Block, limit: f32) -> u32 {
     let [va, vb, vc] = &block.vertices;
     let (a, b, c) = (place(ray, va), place(ray, vb), place(ray, vc));
     let (u, v, w) = (edge(c, b), edge(a, c), edge(b, a));
-    let size = later(later(extent(a), extent(b)), extent(c));
+    let size = larger(larger(extent(a), extent(b)), extent(c));
     let error = _mm256_mul_ps(ray.edge_factor, _mm256_add_ps(size, ray.vertex_error));
     // Beside the triangle where one edge value is surely negative and another surely positive.
     let is_positive =
@@ -184,5 +184,5 @@ fn edge(p: [__m256; 3], q: [__m256; 3]) -> __m256 {
 #[target_feature(enable = "avx2,fma")]
 fn extent(p: [__m256; 3]) -> __m256 {
     let sign = _mm256_set1_ps(-0.0);
-    later(_mm256_andnot_ps(sign, p[0]), _mm256_andnot_ps(sign, p[1]))
+    larger(_mm256_andnot_ps(sign, p[0]), _mm256_andnot_ps(sign, p[1]))
 }
