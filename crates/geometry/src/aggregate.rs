@@ -118,6 +118,22 @@ impl Aggregate {
         }
     }
 
+    /// The surface at a crossing, moved a little along a flat face where an edge is so near that a ray might start
+    /// behind the next face: for surfaces that rays leave on the side they came from.
+    ///
+    /// - `hit`: what `surface` gave for this crossing.
+    ///
+    /// # Panics
+    /// Where the aggregate has no such item or primitive.
+    pub fn off_the_edges(&self, hit: SurfaceHit, candidate: &Candidate) -> SurfaceHit {
+        match &self.items[hit.item as usize].geometry {
+            ItemGeometry::Shape(shape) => shape.off_the_edges(hit),
+            ItemGeometry::Mesh { mesh, transform } => {
+                mesh.mesh().off_the_edges(hit, candidate.barycentric, transform.as_ref())
+            }
+        }
+    }
+
     /// Derivatives of the surface point at a hit by its coordinates.
     ///
     /// # Panics

@@ -4,6 +4,7 @@
 
 pub mod aggregate;
 pub mod bvh;
+mod edges;
 pub mod hit;
 pub mod mesh;
 pub mod primitive;

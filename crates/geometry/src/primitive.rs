@@ -1,5 +1,6 @@
 //! A shape placed in the world: rays in `f32` outside, `f64` inside.
 
+use crate::edges;
 use crate::shape::{Crossings, Shape};
 use crate::{SurfaceHit, Tangents};
 use hyaline_math::{Bounds, DVec2, DVec3, Ray, Transform, Vec2, Vec3};
@@ -100,6 +101,21 @@ impl Primitive {
         let ng = self.world_normal(point.n);
         let (p, p_error) = self.world_point(point.p);
         SurfaceHit { t, p, p_error, ng, n: ng, uv: point.uv.as_vec2(), item: 0, primitive: 0 }
+    }
+
+    /// See [`crate::Aggregate::off_the_edges`]; curved shapes and discs leave the hit where it is.
+    pub(crate) fn off_the_edges(&self, hit: SurfaceHit) -> SurfaceHit {
+        match &self.shape {
+            Shape::Rectangle(rectangle) => {
+                let shrinking = self.transform.inverse_norm();
+                let nearest = rectangle.distance_to_edge(hit.uv);
+                if nearest > f64::from(edges::margin(&hit)) * shrinking {
+                    return hit;
+                }
+                edges::off_the_edges(hit, rectangle.corners().map(|p| self.transform.point(p)))
+            }
+            Shape::Sphere(_) | Shape::Segment(_) | Shape::Arc(_) => hit,
+        }
     }
 
     /// Derivatives of the surface point `p` by its coordinates.

@@ -34,6 +34,16 @@ fn rays_at_vertices_and_edges_enter_as_often_as_they_leave_from_outside() {
 }
 
 #[test]
+fn what_is_reflected_near_an_edge_stays_inside() {
+    let mut random = Random::from_seed(33);
+    for closed in SCALES.into_iter().flat_map(Closed::acute) {
+        for _ in 0..RAYS {
+            assert!(closed.bounce(&mut random, 4).1, "{:?}", closed.scene.bounds());
+        }
+    }
+}
+
+#[test]
 fn rays_in_the_planes_and_along_the_edges_of_a_box_see_it_closed() {
     // Everything is exact here, so each ray meets vertices, edges and diagonals exactly.
     let data = MeshData {

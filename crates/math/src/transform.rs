@@ -115,6 +115,12 @@ impl Transform {
         self.forward.matrix3
     }
 
+    /// Bound on how much longer a vector is in object space than in the world: the Frobenius norm of the inverse.
+    pub fn inverse_norm(&self) -> f64 {
+        let m = &self.inverse.matrix3;
+        (m.x_axis.length_squared() + m.y_axis.length_squared() + m.z_axis.length_squared()).sqrt()
+    }
+
     /// The image of the origin.
     pub fn translation(&self) -> DVec3 {
         self.forward.translation

@@ -118,3 +118,71 @@ fn chains_aimed_at_vertices_and_edges_leave_all_that_they_enter() {
         );
     }
 }
+
+/// A point of the line where a mesh is cut by the plane of one `x`.
+fn cut(mesh: &MeshData, x: f64, random: &mut Random) -> DVec3 {
+    let position = |i: u32| DVec3::from_array(mesh.positions[i as usize].map(f64::from));
+    loop {
+        let face = mesh.triangles[random.bits() as usize % mesh.triangles.len()].map(position);
+        let crossings: Vec<DVec3> = (0..3)
+            .map(|i| (face[i], face[(i + 1) % 3]))
+            .filter(|(a, b)| (a.x - x) * (b.x - x) < 0.0)
+            .map(|(a, b)| a.lerp(b, (x - a.x) / (b.x - a.x)))
+            .collect();
+        if let [a, b] = crossings[..] {
+            return a.lerp(b, random.uniform());
+        }
+    }
+}
+
+#[test]
+fn no_light_comes_in_where_glass_pokes_through_a_wall() {
+    let (center, radius) = (DVec3::new(-1.6, 1.0, -0.3), 0.7);
+    let ball = ball_mesh(center.as_vec3(), radius as f32, 8);
+    let ShapeDescription::Mesh { mesh, .. } = &ball else { unreachable!() };
+    for (start, what) in [(center, "from the glass"), (DVec3::new(0.5, 1.5, 0.8), "from the room")] {
+        let mut kit = SceneKit::new();
+        kit.medium("glass", 1.5).sky(1.0).matte("wall", 0.5).camera(start, center + DVec3::Y * 0.1);
+        kit.surface("room", cuboid(DVec3::new(-2.0, 0.0, -2.0), DVec3::new(2.0, 3.0, 2.0)), "wall");
+        kit.solid("ball", ball.clone(), "glass");
+        let world = kit.world();
+        let mut random = Random::from_seed(9);
+        let mut leaks = 0;
+        for index in 0..400_000 {
+            // From a tenth of what the coordinates are rounded by to a hundred times it.
+            let depth = float::exp(random.between(-17.0, -10.0));
+            let target = cut(mesh, -2.0, &mut random) + DVec3::X * depth;
+            let jitter = DVec3::from_array(random.direction()) * 0.2;
+            let origin = start + jitter;
+            let value = sample(&world, ray(origin, target - origin), world.camera_media[0].clone(), index);
+            leaks += u32::from(value > 0.0);
+        }
+        assert_eq!(leaks, 0, "{what}");
+    }
+}
+
+#[test]
+fn no_light_comes_in_at_the_edges_of_a_room() {
+    for (from, to) in [
+        (DVec3::new(-2.0, 0.0, -2.0), DVec3::new(2.0, 3.0, 2.0)),
+        (DVec3::new(-2.7, 0.3, 7.0), DVec3::new(-1.1, 3.7, 9.3)),
+    ] {
+        let center = 0.5 * (from + to);
+        let mut kit = SceneKit::new();
+        kit.sky(1.0).matte("wall", 0.5).camera(center, from);
+        kit.surface("room", cuboid(from, to), "wall");
+        let world = kit.world();
+        let mut random = Random::from_seed(10);
+        let mut leaks = 0;
+        for index in 0..200_000 {
+            let corner = [(); 3].map(|()| f64::from(random.bits() as u32 & 1));
+            let mut at = DVec3::from_array(corner);
+            at[random.bits() as usize % 3] = random.uniform();
+            let target = from + (to - from) * at;
+            let origin = center + DVec3::from_array(random.direction()) * 0.2;
+            let value = sample(&world, ray(origin, target - origin), world.camera_media[0].clone(), index);
+            leaks += u32::from(value > 0.0);
+        }
+        assert_eq!(leaks, 0);
+    }
+}

@@ -70,6 +70,10 @@ impl StraightWay {
 impl World {
     /// What `ray` finds at a hit.
     pub fn face(&self, ray: &Ray, hit: &SurfaceHit, encounter: &Encounter) -> Face<'_> {
+        if encounter.is_wedged {
+            let finish = Some(&Finish::Black);
+            return Face { finish, relief: None, sides: Sides::Both, straight_shadows: false };
+        }
         let material = &self.materials[self.material_of(hit, encounter) as usize];
         match material.only_finish() {
             Some(finish) => Face {
@@ -153,7 +157,7 @@ impl World {
         encounter: &Encounter,
         within: MediumId,
     ) -> StraightWay {
-        if self.items[hit.item as usize].light.is_some() {
+        if self.items[hit.item as usize].light.is_some() || encounter.is_wedged {
             return StraightWay::BLOCKED;
         }
         if encounter.crossing == Some(Crossing::Hidden) {

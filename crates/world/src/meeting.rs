@@ -17,13 +17,16 @@ pub struct Encounter {
     pub crossing: Option<Crossing>,
     /// Whether it is settled that the ray meets no hole: what lies behind would have been met instead.
     pub(crate) is_solid_there: bool,
+    /// Whether the ray is in the tip of a wedge between the surface and an opaque one, too narrow for the start of
+    /// another ray: it ends there.
+    pub(crate) is_wedged: bool,
     surfaces: SmallVec<[SurfaceCrossing; 2]>,
 }
 
 impl Encounter {
     /// A surface that bounds no medium.
     fn opaque() -> Self {
-        Self { crossing: None, is_solid_there: false, surfaces: SmallVec::new() }
+        Self { crossing: None, is_solid_there: false, is_wedged: false, surfaces: SmallVec::new() }
     }
 
     /// Takes a path across: `set` becomes what holds on the other side.
@@ -51,6 +54,7 @@ impl World {
         let hit = self.geometry.surface(ray, candidate);
         let item = &self.items[hit.item as usize];
         if self.boundaries.of(item.object) == BoundaryKind::None {
+            let hit = self.geometry.off_the_edges(hit, candidate);
             return self.meet_sheet(ray, hit, set, visible, never_entered);
         }
         let side = Side::from_cosine(ray.direction.dot(hit.ng));
@@ -60,6 +64,9 @@ impl World {
         if (item.may_coincide || is_swapped)
             && let Some(opaque) = self.gather(ray, &hit, visible, is_swapped, &mut surfaces)
         {
+            if ray.direction.dot(opaque.ng) * hit.ng.dot(opaque.ng) * ray.direction.dot(hit.ng) < 0.0 {
+                return (hit, Encounter { is_wedged: true, ..Encounter::opaque() });
+            }
             // At the foot of a wall the path is inside the body when it meets what the body stands on; on a label
             // stuck to a bottle it is not.
             let back = offset_origin(opaque.p, opaque.p_error, opaque.ng, -ray.direction);
@@ -69,7 +76,7 @@ impl World {
             return (opaque, Encounter { is_solid_there: true, ..Encounter::opaque() });
         }
         let crossing = Some(set.crossing(&self.boundaries, &surfaces, never_entered));
-        (hit, Encounter { crossing, is_solid_there: false, surfaces })
+        (hit, Encounter { crossing, surfaces, ..Encounter::opaque() })
     }
 
     /// The same at a surface that bounds no medium. Where it lies on a boundary and has holes, as a label on a bottle
@@ -114,7 +121,8 @@ impl World {
         matches!(self.boundaries.of(object), BoundaryKind::Solid { .. }) && !set.holds(object)
     }
 
-    /// Adds the boundaries that coincide with `hit`; returns the first opaque surface that does, if any.
+    /// Adds the boundaries that are crossed together with that of `hit`; returns the first opaque surface that is met
+    /// instead, if any.
     ///
     /// - `is_swapped`: whether the ray leaves at `hit` what it has not entered.
     fn gather(
@@ -125,32 +133,55 @@ impl World {
         is_swapped: bool,
         surfaces: &mut SmallVec<[SurfaceCrossing; 2]>,
     ) -> Option<SurfaceHit> {
-        let next_start = offset_origin(hit.p, hit.p_error, hit.ng, ray.direction);
-        let mut opaque: Option<SurfaceHit> = None;
-        self.geometry.crossings(&jumped_over(ray, hit), visible, &mut |other: Candidate| {
+        let leap = Leap::over(ray, hit);
+        let object_hit = self.items[hit.item as usize].object;
+        let mut opaque: Option<(f32, SurfaceHit)> = None;
+        self.geometry.crossings(&leap.ray, visible, &mut |other: Candidate| {
             if (other.item, other.primitive) == (hit.item, hit.primitive) {
+                return;
+            }
+            let surface = self.geometry.surface(&leap.ray, &other);
+            let object = self.items[other.item as usize].object;
+            if self.boundaries.of(object) != BoundaryKind::None {
+                if !(is_swapped && object == object_hit) && leap.crosses(ray, other.t, &surface) {
+                    surfaces.push((object, Side::from_cosine(leap.ray.direction.dot(surface.ng))));
+                }
+            } else if opaque.is_none_or(|(t, first)| (other.t, other.item) < (t, first.item))
+                && !self.is_hole(ray, &surface)
+            {
+                let surface = SurfaceHit { t: hit.t, ..surface };
+                opaque = Some((other.t, self.geometry.off_the_edges(surface, &other)));
+            }
+        });
+        if is_swapped {
+            self.gather_swapped(ray, hit, visible, surfaces);
+        }
+        opaque.map(|(_, surface)| surface)
+    }
+
+    /// Adds the other faces of a body that a ray leaves without having entered it: at its outline both lie within the
+    /// error of the hit along the ray, and the one that it enters by may lie behind all that the ray leaps over.
+    fn gather_swapped(
+        &self,
+        ray: &Ray,
+        hit: &SurfaceHit,
+        visible: u8,
+        surfaces: &mut SmallVec<[SurfaceCrossing; 2]>,
+    ) {
+        let next_start = offset_origin(hit.p, hit.p_error, hit.ng, ray.direction);
+        let object_hit = self.items[hit.item as usize].object;
+        self.geometry.crossings(&jumped_over(ray, hit), visible, &mut |other: Candidate| {
+            let is_same_body = self.items[other.item as usize].object == object_hit;
+            if !is_same_body || (other.item, other.primitive) == (hit.item, hit.primitive) {
                 return;
             }
             let surface = self.geometry.surface(ray, &other);
             let cosine = ray.direction.dot(surface.ng);
-            // At grazing incidence the jump is long but hardly leaves the first surface: what the next ray still has
-            // before it, it will meet by itself. So it is with the two faces at the outline of a body.
             let is_passed = (next_start - surface.p).dot(surface.ng) * cosine >= 0.0;
-            let object = self.items[other.item as usize].object;
-            if self.boundaries.of(object) != BoundaryKind::None {
-                let is_other_face =
-                    is_swapped && cosine < 0.0 && object == self.items[hit.item as usize].object;
-                if is_passed || is_other_face {
-                    surfaces.push((object, Side::from_cosine(cosine)));
-                }
-            } else if is_passed
-                && opaque.is_none_or(|first| (other.t, other.item) < (first.t, first.item))
-                && !self.is_hole(ray, &surface)
-            {
-                opaque = Some(surface);
+            if is_passed || cosine < 0.0 {
+                surfaces.push((object_hit, Side::from_cosine(cosine)));
             }
         });
-        opaque
     }
 
     /// Suffern's local term of a simple transparent surface; `None` where it has none.
@@ -200,6 +231,36 @@ impl World {
             }
             ItemGeometry::Shape(_) => default,
         }
+    }
+}
+
+/// The way through a surface that no ray looks at: from where a reflected ray starts to where one that goes on does.
+struct Leap {
+    start: Vec3,
+    end: Vec3,
+    /// Along the way, from a little before its start to a little beyond its end: nothing opaque that touches them is
+    /// missed.
+    ray: Ray,
+}
+
+impl Leap {
+    fn over(ray: &Ray, hit: &SurfaceHit) -> Self {
+        let start = offset_origin(hit.p, hit.p_error, hit.ng, -ray.direction);
+        let end = offset_origin(hit.p, hit.p_error, hit.ng, ray.direction);
+        let (way, margin) = (end - start, 0.25 * (end - start));
+        let length = way.length();
+        let along = Ray::new(start - margin, way / length);
+        Self { start, end, ray: Ray { t_max: 1.5 * length, time: ray.time, ..along } }
+    }
+
+    /// Whether who takes the way gets to the other side of a boundary that it meets at `t`. Where a body and another
+    /// meet in a wedge, a reflected ray may start in the other one: that boundary is not crossed with this one.
+    fn crosses(&self, ray: &Ray, t: f32, boundary: &SurfaceHit) -> bool {
+        let ng = boundary.ng;
+        let cosine = self.ray.direction.dot(ng);
+        let height = |p: Vec3| (p - boundary.p).dot(ng) * cosine;
+        let same_sense = cosine * ray.direction.dot(ng) >= 0.0;
+        height(self.start) < 0.0 && height(self.end) >= 0.0 && (same_sense || t > 0.5 * self.ray.t_max)
     }
 }
 

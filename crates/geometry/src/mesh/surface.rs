@@ -1,6 +1,7 @@
 //! The surface of a mesh about a point of a face: position, normals, texture coordinates, tangents.
 
 use super::{Mesh, Shading};
+use crate::edges;
 use crate::hit::{Candidate, SurfaceHit, Tangents};
 use hyaline_math::{DVec3, Transform, Vec2, Vec3};
 
@@ -52,6 +53,26 @@ impl Mesh {
         // Slightly up, so that the bound survives its own rounding; and never 0.
         let p_error = (rounding * 1.000_001) as f32 + f32::MIN_POSITIVE;
         MeshPoint { p: p.as_vec3(), p_error, ng: n.as_vec3().normalize_or(Vec3::Y) }
+    }
+
+    /// See [`crate::Aggregate::off_the_edges`].
+    pub(crate) fn off_the_edges(
+        &self,
+        hit: SurfaceHit,
+        barycentric: Vec2,
+        transform: Option<&Transform>,
+    ) -> SurfaceHit {
+        let [a, b, c] = self.corners(hit.primitive);
+        let place = |v: Vec3| transform.map_or(v, |t| t.vector(v.as_dvec3()).as_vec3());
+        let (ab, ac) = (place(b - a), place(c - a));
+        // No edge is nearer than by this share of the height over the longest.
+        let share = barycentric.min_element().min(1.0 - barycentric.element_sum());
+        let longest2 = ab.length_squared().max(ac.length_squared()).max((ac - ab).length_squared());
+        if share * ab.cross(ac).length() > edges::margin(&hit) * longest2.sqrt() {
+            return hit;
+        }
+        let place = |p: Vec3| transform.map_or(p.as_dvec3(), |t| t.point(p.as_dvec3()));
+        edges::off_the_edges(hit, [a, b, c].map(place))
     }
 
     /// The normal to shade with: unit, on the side of `ng`.

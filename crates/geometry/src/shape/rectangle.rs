@@ -2,7 +2,7 @@
 
 use super::error::ShapeError;
 use super::{Crossings, ShapePoint, end_slack};
-use hyaline_math::{DVec2, DVec3};
+use hyaline_math::{DVec2, DVec3, Vec2};
 
 /// The points `center + a half_u + b half_v`, -1 ≤ a, b ≤ 1; the normal is along `half_u × half_v`.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -43,6 +43,19 @@ impl Rectangle {
     fn coordinates(&self, p: DVec3) -> DVec2 {
         let offset = p - self.center;
         DVec2::new(self.dual[0].dot(offset), self.dual[1].dot(offset))
+    }
+
+    /// The corners in order.
+    pub(crate) fn corners(&self) -> [DVec3; 4] {
+        let (u, v) = (self.half_u, self.half_v);
+        [self.center - u - v, self.center + u - v, self.center + u + v, self.center - u + v]
+    }
+
+    /// How near an edge may be to the point whose surface coordinates were rounded to `uv`.
+    pub(crate) fn distance_to_edge(&self, uv: Vec2) -> f64 {
+        let uv = uv.as_dvec2();
+        let share = 2.0 * (uv.min(1.0 - uv) - f64::from(f32::EPSILON));
+        (share.x / self.dual_lengths[0]).min(share.y / self.dual_lengths[1])
     }
 
     pub(super) fn extent(&self) -> f64 {

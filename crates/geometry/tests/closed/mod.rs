@@ -48,6 +48,38 @@ impl Closed {
         ]
     }
 
+    /// Meshes whose faces meet at acute angles, of 70, 53 and 28 degrees at the base, plain and placed by a map.
+    pub(crate) fn acute(scale: f32) -> Vec<Self> {
+        let center = Vec3::new(0.37, -1.2, 0.55) * scale;
+        let turned = Transform::rotate(DVec3::new(1.0, -1.0, 0.4), 1.1).unwrap();
+        let pyramid = |height: f32, transform| {
+            let corner = |x, y, z| center + Vec3::new(x, y, z) * scale;
+            let ring = [corner(1., 0., 1.), corner(1., 0., -1.), corner(-1., 0., -1.), corner(-1., 0., 1.)];
+            let positions = ring.into_iter().chain([corner(0.0, height, 0.0)]).collect();
+            let triangles = vec![[0, 2, 1], [0, 3, 2], [0, 1, 4], [1, 2, 4], [2, 3, 4], [3, 0, 4]];
+            let data = MeshData { positions, triangles, ..MeshData::default() };
+            Self::new(data, corner(0.0, 0.25 * height, 0.0), 0.2 * height * scale, transform)
+        };
+        vec![pyramid(2.75, None), pyramid(1.33, Some(turned)), pyramid(0.53, None)]
+    }
+
+    /// Follows a chain of diffuse reflections inside, the first of them at an edge; returns the rays traced, and whether
+    /// all of them met a face from inside.
+    pub(crate) fn bounce(&self, random: &mut Random, limit: usize) -> (usize, bool) {
+        let mut ray = self.ray_from_inside(random);
+        for count in 1..=limit {
+            let Some(candidate) = self.scene.closest(&ray, 1) else { return (count, false) };
+            let hit = self.scene.off_the_edges(self.scene.surface(&ray, &candidate), &candidate);
+            if ray.direction.dot(hit.ng) < 0.0 {
+                return (count, false);
+            }
+            let around = Vec3::from_array(random.direction().map(|x| x as f32));
+            let direction = (around * 0.999 - hit.ng).normalize();
+            ray = Ray::new(offset_origin(hit.p, hit.p_error, hit.ng, direction), direction);
+        }
+        (limit, true)
+    }
+
     /// A vertex, the middle of an edge, or any point of an edge, in `f64`.
     fn target(&self, random: &mut Random) -> DVec3 {
         let mesh = self.mesh.mesh();

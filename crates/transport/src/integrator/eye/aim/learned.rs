@@ -23,7 +23,7 @@ use std::sync::atomic::AtomicBool;
 /// Photons that are sent out for each pixel.
 const PHOTONS_PER_PIXEL: u32 = 4;
 /// Photons that are sent out, at least and at most.
-const PHOTONS: [u32; 2] = [1 << 17, 1 << 19];
+const PHOTONS: [u32; 2] = [1 << 15, 1 << 19];
 /// Photons of a cell, at most.
 const CELL: usize = 128;
 /// Things to aim at from a cell, at most.
