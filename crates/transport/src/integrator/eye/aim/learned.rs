@@ -1,15 +1,16 @@
 //! Where the light of caustics comes from, place by place, as photons have found it.
 //!
 //! Photons that have come over polished surfaces are traced once. Those that landed close together are a cell. They left
-//! the last polished surface at some points: on the near arm of a ring, on the rim of a glass. Clusters of these points,
-//! a ball about each, are what wide surfaces in the cell aim at, each as often as its photons are bright.
+//! the last polished surface at some points: on the near arm of a ring, on the rim of a glass. They are divided by these
+//! points, and the beams through what belongs together are what wide surfaces in the cell aim along, each as often as its
+//! photons are bright.
 //!
 //! All this can only help or waste directions: whatever photons say, a direction counts by its density.
 //!
 //! Source: Jensen, Importance driven path tracing using the photon map, Eurographics Workshop on Rendering, 1995, where
 //! each look-up makes a histogram of its nearest photons.
 
-use super::ball::Ball;
+use super::beam::{Beam, Moments, Ray as BeamRay};
 use crate::RenderSettings;
 use crate::integrator::merging::projection_cells;
 use crate::photon::{MapKind, PhotonEmitter, PhotonTracer};
@@ -25,15 +26,15 @@ const PHOTONS_PER_PIXEL: u32 = 4;
 /// Photons that are sent out, at least and at most.
 const PHOTONS: [u32; 2] = [1 << 15, 1 << 19];
 /// Photons of a cell, at most.
-const CELL: usize = 128;
+const CELL: usize = 192;
 /// Things to aim at from a cell, at most.
-const MOST_SOURCES: usize = 8;
+const MOST_SOURCES: usize = 12;
 /// Photons of a source, at least: fewer do not show how wide it is.
 const FEWEST: usize = 6;
 /// How far beyond its photons a cell reaches, over its diagonal.
 const MARGIN: f32 = 0.25;
-/// How much larger the ball of a source is than that of its photons, times their number: others will leave beyond them.
-const SPREAD: f32 = 4.0;
+/// Cuts of a cluster that are tried along an axis, about.
+const CUTS: usize = 32;
 /// How far a photon is moved back before the way it came is looked for, over its coordinates.
 const STEP: f32 = 1e-5;
 /// Chance of asking where hardly any photons have landed.
@@ -51,10 +52,10 @@ struct Arrival {
     power: f32,
 }
 
-/// A thing to aim at.
+/// Light that comes to a cell from about one place.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Source {
-    pub(super) ball: Ball,
+    pub(super) beam: Beam,
     /// Of the power that lands in the cell.
     pub(super) share: f32,
 }
@@ -194,10 +195,10 @@ impl Cell {
         let bounds = Bounds::from_points(arrivals.iter().map(|arrival| arrival.landed));
         let reach = bounds.expanded(MARGIN * bounds.size().length());
         let power: f32 = arrivals.iter().map(|arrival| arrival.power).sum();
-        let sources = clusters(arrivals, bounds.center())
+        let sources = clusters(arrivals)
             .into_iter()
             .map(|cluster| Source {
-                ball: ball_about(cluster),
+                beam: Beam::through(&cluster.iter().map(Arrival::ray).collect::<Vec<_>>()),
                 share: cluster.iter().map(|arrival| arrival.power).sum::<f32>() / power,
             })
             .filter(|source| source.share > 0.0)
@@ -208,10 +209,9 @@ impl Cell {
     }
 }
 
-/// Divides photons by where they came from, so that balls about them look small from `place`.
-fn clusters(arrivals: &mut [Arrival], place: Vec3) -> Vec<&mut [Arrival]> {
-    let cut = |cluster: &mut [Arrival]| best_cut(cluster, place);
-    let first = cut(arrivals);
+/// Divides photons by where they came from, so that beams through them are narrow.
+fn clusters(arrivals: &mut [Arrival]) -> Vec<&mut [Arrival]> {
+    let first = best_cut(arrivals);
     let mut clusters = vec![(arrivals, first)];
     while clusters.len() < MOST_SOURCES {
         let gains = clusters.iter().enumerate().filter_map(|(i, (_, cut))| Some((i, cut.as_ref()?.gain)));
@@ -219,7 +219,7 @@ fn clusters(arrivals: &mut [Arrival], place: Vec3) -> Vec<&mut [Arrival]> {
         let (cluster, Some(Cut { axis, at, .. })) = clusters.swap_remove(i) else { break };
         sort_along(cluster, axis);
         let (low, high) = cluster.split_at_mut(at);
-        let cuts = [cut(low), cut(high)];
+        let cuts = [best_cut(low), best_cut(high)];
         clusters.extend([low, high].into_iter().zip(cuts));
     }
     clusters.into_iter().map(|(cluster, _)| cluster).collect()
@@ -230,50 +230,40 @@ struct Cut {
     axis: usize,
     at: usize,
     /// How much less the clusters cost.
-    gain: f32,
+    gain: f64,
 }
 
 /// The best of all cuts that gain anything.
-fn best_cut(cluster: &mut [Arrival], place: Vec3) -> Option<Cut> {
+fn best_cut(cluster: &mut [Arrival]) -> Option<Cut> {
     let count = cluster.len();
     let mut best = Cut { axis: 0, at: 0, gain: 0.0 };
-    let whole = cost(count, &Bounds::from_points(cluster.iter().map(|arrival| arrival.left)), place);
-    let mut costs_above = vec![0.0; count];
+    let base = cluster[0].ray();
+    let whole = cluster.iter().fold(Moments::ZERO, |sum, arrival| sum.including(&arrival.ray(), &base));
+    let step = (count / CUTS).max(1);
     for axis in 0..3 {
         sort_along(cluster, axis);
-        let mut bounds = Bounds::EMPTY;
-        for at in (1..count).rev() {
-            bounds = bounds.including(cluster[at].left);
-            costs_above[at] = cost(count - at, &bounds, place);
-        }
-        bounds = Bounds::EMPTY;
-        for at in 1..count {
-            bounds = bounds.including(cluster[at - 1].left);
-            let gain = whole - costs_above[at] - cost(at, &bounds, place);
-            if at >= FEWEST && count - at >= FEWEST && gain > best.gain {
-                best = Cut { axis, at, gain };
+        let mut low = Moments::ZERO;
+        for (at, arrival) in cluster.iter().enumerate() {
+            if at >= FEWEST && count - at >= FEWEST && at.is_multiple_of(step) {
+                let gain = whole.cost() - low.cost() - (whole - low).cost();
+                if gain > best.gain {
+                    best = Cut { axis, at, gain };
+                }
             }
+            low = low.including(&arrival.ray(), &base);
         }
     }
     (best.gain > 0.0).then_some(best)
-}
-
-/// Photons times about the solid angle of the ball about them.
-fn cost(count: usize, bounds: &Bounds, place: Vec3) -> f32 {
-    let size2 = bounds.size().length_squared();
-    count as f32 * size2 / (size2 + bounds.center().distance_squared(place)).max(f32::MIN_POSITIVE)
 }
 
 fn sort_along(cluster: &mut [Arrival], axis: usize) {
     cluster.sort_unstable_by(|a, b| a.left[axis].total_cmp(&b.left[axis]));
 }
 
-/// A ball about where photons left, and somewhat beyond: others will leave there, too.
-fn ball_about(cluster: &[Arrival]) -> Ball {
-    let bounds = Bounds::from_points(cluster.iter().map(|arrival| arrival.left));
-    let center = bounds.center();
-    let farthest = cluster.iter().map(|arrival| arrival.left.distance(center)).fold(0.0, f32::max);
-    Ball { center, radius: farthest * (1.0 + SPREAD / cluster.len() as f32) }
+impl Arrival {
+    fn ray(&self) -> BeamRay {
+        BeamRay { p: self.landed.as_dvec3(), u: (self.left - self.landed).normalize_or_zero().as_dvec3() }
+    }
 }
 
 #[cfg(test)]
@@ -301,7 +291,9 @@ mod tests {
         assert!(learned.cells.len() > 20_000 / CELL);
         for Arrival { landed, left, .. } in arrivals {
             let (sources, _) = learned.at(landed);
-            let holds = |source: &Source| source.ball.center.distance(left) <= source.ball.radius;
+            let u = (left - landed).normalize();
+            let holds =
+                |source: &Source| 0.5 * (source.beam.axis(landed) - u).length_squared() <= source.beam.whole;
             assert!(sources.iter().any(holds), "nothing from {left} at {landed}");
         }
     }
@@ -312,8 +304,10 @@ mod tests {
         for cell in &learned.cells {
             let total: f32 = cell.sources.iter().map(|source| source.share).sum();
             assert!((total - 1.0).abs() < 1e-4 && cell.sources.len() <= MOST_SOURCES);
-            // The two lines lie 1 apart: no ball holds some of both.
-            assert!(cell.sources.iter().all(|source| source.ball.radius < 0.4), "{:?}", cell.sources);
+            // The two lines lie 1 apart: hardly a beam holds light of both.
+            let narrow = cell.sources.iter().filter(|source| source.beam.whole < 0.1);
+            let power: f32 = narrow.map(|source| source.share).sum();
+            assert!(power > 0.8, "{:?}", cell.sources);
         }
     }
 

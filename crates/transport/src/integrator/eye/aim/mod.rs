@@ -3,11 +3,12 @@
 //! A path finds the light of a caustic only if it leaves a wide surface just so that polished ones lead it to a lamp; drawn
 //! from the finish, few directions do. So the surface asks in directions of its own, drawn from cones:
 //!
-//! - about the places on polished objects that photons have come from to just about here (`learned`);
+//! - along the beams that photons have come in to just about here (`learned`, `beam`);
 //! - where none have, and in media: about each polished object that looks small, and about each lamp that one may stand
 //!   before; those are nested, for glass may bend the way a little or much.
 
 mod ball;
+mod beam;
 mod cones;
 mod learned;
 
@@ -23,8 +24,10 @@ use learned::{LEAST_CHANCE, Learned};
 use smallvec::SmallVec;
 use std::sync::atomic::AtomicBool;
 
-/// Share of each polished object as a whole, over that of all places that photons have come from.
-const ANYWHERE: f32 = 0.2;
+/// Share of polished objects as a whole, over that of all beams that photons have shown.
+const ANYWHERE: f32 = 0.05;
+/// Share of the core of a beam.
+const CORE: f32 = 0.6;
 /// Lamps, at most: the strongest.
 const MOST_LAMPS: usize = 4;
 /// Versine of the widest cone about an object that is worth it: wider ones are no better than a matte finish.
@@ -98,9 +101,10 @@ impl Aim {
         let (sources, chance) = self.learned.at(p);
         let mut cones = Cones::new(chance);
         for source in sources {
-            let view = View::new(&source.ball, p);
-            if view.rises_over(n) {
-                cones.push(view.axis, view.versine(), source.share);
+            let axis = source.beam.axis(p);
+            if source.beam.rises_over(axis, n) {
+                cones.push(axis, source.beam.core, source.share * CORE);
+                cones.push(axis, source.beam.whole, source.share * (1.0 - CORE));
             }
         }
         if cones.total == 0.0 {
@@ -108,7 +112,7 @@ impl Aim {
         }
         let views = self.objects.iter().map(|ball| View::new(ball, p)).filter(|view| view.rises_over(n));
         for view in views {
-            cones.push(view.axis, view.versine(), ANYWHERE);
+            cones.push(view.axis, view.versine(), ANYWHERE / self.objects.len() as f32);
         }
         Some(cones)
     }
