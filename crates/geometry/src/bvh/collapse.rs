@@ -24,11 +24,15 @@ const LEAF_COST: f32 = 1.4;
 const SPLITS: usize = WIDTH - 1;
 
 /// More primitives than this are built in parts: memory while building, against the reach of reinsertion.
-const LARGEST_PART: usize = 1 << 20;
+const LARGEST_WHOLE: usize = 1 << 20;
+
+/// Primitives of a part, at most: as many as a processor's caches hold while they are moved about.
+const LARGEST_PART: usize = 1 << 18;
 
 /// Builds a tree over boxes, with at most `leaf_size` of them in a leaf; also tells which each leaf holds, ascending.
 pub(crate) fn build(boxes: &[Bounds], leaf_size: u32) -> (Tree, Leaves) {
-    build_in_parts(boxes, leaf_size, LARGEST_PART)
+    let limit = if boxes.len() <= LARGEST_WHOLE { LARGEST_WHOLE } else { LARGEST_PART };
+    build_in_parts(boxes, leaf_size, limit)
 }
 
 /// The same with parts of at most `limit` primitives.
