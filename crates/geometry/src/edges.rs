@@ -6,8 +6,8 @@
 use crate::SurfaceHit;
 use hyaline_math::{DVec3, ray::offset_distance};
 
-/// How far a point keeps from the edges, in units of what the start of a ray is moved by: enough for faces that meet at
-/// 20 degrees and more.
+/// How far a point keeps from the edges, in units of what the start of a ray is moved by: two of those above its face,
+/// which is as high as a start can be, it is still between faces that meet at 27 degrees or more.
 const MARGIN: f32 = 4.0;
 
 /// Rounds through the edges: at a corner, to get away from one edge is to near the other.

@@ -135,6 +135,20 @@ fn cut(mesh: &MeshData, x: f64, random: &mut Random) -> DVec3 {
     }
 }
 
+/// How many of `count` paths from about the camera, at `start`, to places that `target` makes see any light.
+fn leaks(kit: &SceneKit, start: DVec3, count: u32, mut target: impl FnMut(&mut Random) -> DVec3) -> u32 {
+    let world = kit.world();
+    let mut random = Random::from_seed(9);
+    let mut leaks = 0;
+    for index in 0..count {
+        let target = target(&mut random);
+        let origin = start + DVec3::from_array(random.direction()) * 0.2;
+        let value = sample(&world, ray(origin, target - origin), world.camera_media[0].clone(), index);
+        leaks += u32::from(value > 0.0);
+    }
+    leaks
+}
+
 #[test]
 fn no_light_comes_in_where_glass_pokes_through_a_wall() {
     let (center, radius) = (DVec3::new(-1.6, 1.0, -0.3), 0.7);
@@ -145,18 +159,11 @@ fn no_light_comes_in_where_glass_pokes_through_a_wall() {
         kit.medium("glass", 1.5).sky(1.0).matte("wall", 0.5).camera(start, center + DVec3::Y * 0.1);
         kit.surface("room", cuboid(DVec3::new(-2.0, 0.0, -2.0), DVec3::new(2.0, 3.0, 2.0)), "wall");
         kit.solid("ball", ball.clone(), "glass");
-        let world = kit.world();
-        let mut random = Random::from_seed(9);
-        let mut leaks = 0;
-        for index in 0..400_000 {
+        let leaks = leaks(&kit, start, 400_000, |random| {
             // From a tenth of what the coordinates are rounded by to a hundred times it.
             let depth = float::exp(random.between(-17.0, -10.0));
-            let target = cut(mesh, -2.0, &mut random) + DVec3::X * depth;
-            let jitter = DVec3::from_array(random.direction()) * 0.2;
-            let origin = start + jitter;
-            let value = sample(&world, ray(origin, target - origin), world.camera_media[0].clone(), index);
-            leaks += u32::from(value > 0.0);
-        }
+            cut(mesh, -2.0, random) + DVec3::X * depth
+        });
         assert_eq!(leaks, 0, "{what}");
     }
 }
@@ -171,18 +178,11 @@ fn no_light_comes_in_at_the_edges_of_a_room() {
         let mut kit = SceneKit::new();
         kit.sky(1.0).matte("wall", 0.5).camera(center, from);
         kit.surface("room", cuboid(from, to), "wall");
-        let world = kit.world();
-        let mut random = Random::from_seed(10);
-        let mut leaks = 0;
-        for index in 0..200_000 {
-            let corner = [(); 3].map(|()| f64::from(random.bits() as u32 & 1));
-            let mut at = DVec3::from_array(corner);
+        let leaks = leaks(&kit, center, 200_000, |random| {
+            let mut at = DVec3::from_array([(); 3].map(|()| f64::from(random.bits() as u32 & 1)));
             at[random.bits() as usize % 3] = random.uniform();
-            let target = from + (to - from) * at;
-            let origin = center + DVec3::from_array(random.direction()) * 0.2;
-            let value = sample(&world, ray(origin, target - origin), world.camera_media[0].clone(), index);
-            leaks += u32::from(value > 0.0);
-        }
+            from + (to - from) * at
+        });
         assert_eq!(leaks, 0);
     }
 }

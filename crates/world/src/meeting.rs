@@ -64,6 +64,7 @@ impl World {
         if (item.may_coincide || is_swapped)
             && let Some(opaque) = self.gather(ray, &hit, visible, is_swapped, &mut surfaces)
         {
+            // The ray goes away from the opaque surface, which a way through this one would cross against it.
             if ray.direction.dot(opaque.ng) * hit.ng.dot(opaque.ng) * ray.direction.dot(hit.ng) < 0.0 {
                 return (hit, Encounter { is_wedged: true, ..Encounter::opaque() });
             }

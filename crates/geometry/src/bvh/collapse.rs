@@ -26,7 +26,7 @@ const SPLITS: usize = WIDTH - 1;
 /// More primitives than this are built in parts: memory while building, against the reach of reinsertion.
 const LARGEST_WHOLE: usize = 1 << 20;
 
-/// Primitives of a part, at most: as many as a processor's caches hold while they are moved about.
+/// Primitives of a part, at most: few enough that what reinsertion jumps about in is mostly in the caches.
 const LARGEST_PART: usize = 1 << 18;
 
 /// Builds a tree over boxes, with at most `leaf_size` of them in a leaf; also tells which each leaf holds, ascending.

@@ -22,7 +22,7 @@ const LEAST_LEFT: f64 = 0.25;
 
 /// A photon's place and the unit direction that it came from.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Ray {
+pub(super) struct Incidence {
     pub(super) p: DVec3,
     pub(super) u: DVec3,
 }
@@ -41,21 +41,17 @@ pub(super) struct Moments {
 }
 
 impl Moments {
-    /// No rays.
+    /// Of no rays.
     pub(super) const ZERO: Self =
         Self { count: 0.0, p: DVec3::ZERO, u: DVec3::ZERO, pp: DMat3::ZERO, up: DMat3::ZERO, uu: 0.0 };
 
-    /// The sums over rays, about the first.
-    pub(super) fn of(rays: &[Ray]) -> Self {
-        Self::about(rays, &rays[0])
-    }
-
-    fn about(rays: &[Ray], base: &Ray) -> Self {
-        rays.iter().fold(Self::ZERO, |sum, ray| sum.including(ray, base))
+    /// The sums over rays.
+    pub(super) fn of(rays: impl IntoIterator<Item = Incidence>, base: &Incidence) -> Self {
+        rays.into_iter().fold(Self::ZERO, |sum, ray| sum.including(&ray, base))
     }
 
     /// The sums with a further ray.
-    pub(super) fn including(mut self, ray: &Ray, base: &Ray) -> Self {
+    pub(super) fn including(mut self, ray: &Incidence, base: &Incidence) -> Self {
         let (p, u) = (ray.p - base.p, ray.u - base.u);
         self.count += 1.0;
         self.p += p;
@@ -72,7 +68,7 @@ impl Moments {
         if n <= FITTED {
             return f64::INFINITY;
         }
-        let (turn, cross) = (self.turn(), self.up - outer(self.u, self.p) * (1.0 / n));
+        let (turn, cross) = (self.turn(), self.cross());
         let explained =
             turn.x_axis.dot(cross.x_axis) + turn.y_axis.dot(cross.y_axis) + turn.z_axis.dot(cross.z_axis);
         let left = (self.uu - self.u.length_squared() / n - explained).max(0.0);
@@ -81,7 +77,12 @@ impl Moments {
 
     /// Change of direction by place.
     fn turn(&self) -> DMat3 {
-        (self.up - outer(self.u, self.p) * (1.0 / self.count)) * self.inverse_spread()
+        self.cross() * self.inverse_spread()
+    }
+
+    /// Sums of products of directions and places, both about their means.
+    fn cross(&self) -> DMat3 {
+        self.up - outer(self.u, self.p) * (1.0 / self.count)
     }
 
     /// Inverse of the sums of squares of places about their mean, a little more in all directions.
@@ -130,8 +131,8 @@ impl Beam {
     ///
     /// # Panics
     /// Where there is no ray.
-    pub(super) fn through(rays: &[Ray]) -> Self {
-        let sums = Moments::of(rays);
+    pub(super) fn through(rays: &[Incidence]) -> Self {
+        let sums = Moments::of(rays.iter().copied(), &rays[0]);
         let n = sums.count;
         let (center, axis) = (rays[0].p + sums.p / n, rays[0].u + sums.u / n);
         let (turn, inverse) = (sums.turn(), sums.inverse_spread());
@@ -177,17 +178,17 @@ mod tests {
     use hyaline_testkit::Random;
 
     /// Places on a square of a half unit, and for each the direction to a point that `from` makes of it.
-    fn rays(count: usize, mut from: impl FnMut(&mut Random, DVec3) -> DVec3) -> Vec<Ray> {
+    fn rays(count: usize, mut from: impl FnMut(&mut Random, DVec3) -> DVec3) -> Vec<Incidence> {
         let mut random = Random::from_seed(8);
         let ray = |_| {
             let p = DVec3::new(random.between(-0.25, 0.25), random.between(-0.25, 0.25), 0.0);
-            Ray { p, u: (from(&mut random, p) - p).normalize() }
+            Incidence { p, u: (from(&mut random, p) - p).normalize() }
         };
         (0..count).map(ray).collect()
     }
 
     /// Angle between the axis at a place and a direction, radians.
-    fn off(beam: &Beam, ray: &Ray) -> f64 {
+    fn off(beam: &Beam, ray: &Incidence) -> f64 {
         (beam.axis(ray.p.as_vec3()).as_dvec3() - ray.u).length()
     }
 
@@ -225,22 +226,21 @@ mod tests {
             DVec3::new(if random.uniform() < 0.5 { -1.0 } else { 1.0 }, 0.0, 1.0)
         };
         let all = rays(100, two);
-        let (left, right): (Vec<Ray>, Vec<Ray>) = all.iter().partition(|ray| ray.u.x < 0.0);
-        let parts = Moments::of(&left).cost() + Moments::of(&right).cost();
-        assert!(parts < 0.01 * Moments::of(&all).cost());
-        assert!(
-            (Moments::of(&all) - Moments::about(&left, &all[0])).cost() < 0.01 * Moments::of(&all).cost()
-        );
+        let (left, right): (Vec<Incidence>, Vec<Incidence>) = all.iter().partition(|ray| ray.u.x < 0.0);
+        let sums = |rays: &[Incidence]| Moments::of(rays.iter().copied(), &all[0]);
+        let whole = sums(&all);
+        assert!(sums(&left).cost() + sums(&right).cost() < 0.01 * whole.cost());
+        assert!((whole - sums(&left)).cost() < 0.01 * whole.cost());
     }
 
     #[test]
     fn few_rays_rays_in_line_and_equal_rays_make_a_beam() {
-        let in_line: Vec<Ray> =
-            (0..9).map(|i| Ray { p: DVec3::X * f64::from(i), u: DVec3::new(0.0, 0.6, 0.8) }).collect();
+        let in_line: Vec<Incidence> =
+            (0..9).map(|i| Incidence { p: DVec3::X * f64::from(i), u: DVec3::new(0.0, 0.6, 0.8) }).collect();
         for rays in [&in_line[..], &in_line[..1], &[in_line[3]; 7]] {
             let beam = Beam::through(rays);
             assert!(rays.iter().all(|ray| off(&beam, ray) < 1e-6), "{beam:?}");
-            assert!(beam.whole < 1e-6 && Moments::of(rays).cost() >= 0.0);
+            assert!(beam.whole < 1e-6 && Moments::of(rays.iter().copied(), &rays[0]).cost() >= 0.0);
         }
     }
 }

@@ -10,7 +10,7 @@
 //! Source: Jensen, Importance driven path tracing using the photon map, Eurographics Workshop on Rendering, 1995, where
 //! each look-up makes a histogram of its nearest photons.
 
-use super::beam::{Beam, Moments, Ray as BeamRay};
+use super::beam::{Beam, Incidence, Moments};
 use crate::RenderSettings;
 use crate::integrator::merging::projection_cells;
 use crate::photon::{MapKind, PhotonEmitter, PhotonTracer};
@@ -238,14 +238,15 @@ fn best_cut(cluster: &mut [Arrival]) -> Option<Cut> {
     let count = cluster.len();
     let mut best = Cut { axis: 0, at: 0, gain: 0.0 };
     let base = cluster[0].ray();
-    let whole = cluster.iter().fold(Moments::ZERO, |sum, arrival| sum.including(&arrival.ray(), &base));
+    let whole = Moments::of(cluster.iter().map(Arrival::ray), &base);
+    let whole_cost = whole.cost();
     let step = (count / CUTS).max(1);
     for axis in 0..3 {
         sort_along(cluster, axis);
         let mut low = Moments::ZERO;
         for (at, arrival) in cluster.iter().enumerate() {
             if at >= FEWEST && count - at >= FEWEST && at.is_multiple_of(step) {
-                let gain = whole.cost() - low.cost() - (whole - low).cost();
+                let gain = whole_cost - low.cost() - (whole - low).cost();
                 if gain > best.gain {
                     best = Cut { axis, at, gain };
                 }
@@ -261,8 +262,8 @@ fn sort_along(cluster: &mut [Arrival], axis: usize) {
 }
 
 impl Arrival {
-    fn ray(&self) -> BeamRay {
-        BeamRay { p: self.landed.as_dvec3(), u: (self.left - self.landed).normalize_or_zero().as_dvec3() }
+    fn ray(&self) -> Incidence {
+        Incidence { p: self.landed.as_dvec3(), u: (self.left - self.landed).normalize_or_zero().as_dvec3() }
     }
 }
 
