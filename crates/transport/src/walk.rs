@@ -54,6 +54,11 @@ impl Vertex {
         self.encounter.commit(world, set);
     }
 
+    /// Whether media meet here; an opaque surface or a sheet bounds none.
+    pub(crate) fn is_boundary(&self) -> bool {
+        self.encounter.crossing.is_some()
+    }
+
     /// Whether shadow rays have already brought what comes to a receiver this way: the surface has straight shadows,
     /// and the path crosses it.
     ///

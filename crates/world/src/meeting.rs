@@ -80,6 +80,25 @@ impl World {
         (hit, Encounter { crossing, surfaces, ..Encounter::opaque() })
     }
 
+    /// The same for those who look and carry no light: the surface, and what crossing it changes where media meet there.
+    /// Holes in sheets are not looked into.
+    pub fn look_at(
+        &self,
+        ray: &Ray,
+        candidate: &Candidate,
+        set: &mut MediumSet,
+        visible: u8,
+    ) -> (SurfaceHit, Option<Encounter>) {
+        let object = self.items[candidate.item as usize].object;
+        if self.boundaries.of(object) == BoundaryKind::None {
+            return (self.geometry.surface(ray, candidate), None);
+        }
+        // What was never entered is told by the rays that carry light.
+        let (hit, encounter) = self.meet(ray, candidate, set, visible, &mut |_| ());
+        let is_boundary = encounter.crossing.is_some();
+        (hit, is_boundary.then_some(encounter))
+    }
+
     /// The same at a surface that bounds no medium. Where it lies on a boundary and has holes, as a label on a bottle
     /// has, a ray that meets a hole meets the boundary.
     fn meet_sheet(

@@ -30,7 +30,14 @@ impl Shot<'_> {
     }
 
     /// The samples of `tile` for each pass, and what was counted on the way.
-    pub fn render(&self, tile: Rect, passes: Range<u32>, mut each: impl FnMut(u32, &[PixelSample])) -> Stats {
+    pub fn render(&self, tile: Rect, passes: Range<u32>, each: impl FnMut(u32, &[PixelSample])) -> Stats {
+        let stats = self.render_any(tile, passes, each);
+        assert!(stats.never_entered.is_empty(), "left what was never entered: {:?}", stats.never_entered);
+        stats
+    }
+
+    /// The same, also of scenes with holes in their bodies.
+    fn render_any(&self, tile: Rect, passes: Range<u32>, mut each: impl FnMut(u32, &[PixelSample])) -> Stats {
         let (width, height) = self.size;
         let filter = PixelFilter::new(&FilterDescription::Box);
         let view = View { camera: 0, width, height, filter };
@@ -43,18 +50,21 @@ impl Shot<'_> {
             prepared.begin_pass(number, &mut stats).render_tile(tile, &mut samples, &mut stats);
             each(number, &samples);
         }
-        assert!(stats.never_entered.is_empty(), "left what was never entered: {:?}", stats.never_entered);
         stats
     }
 
     /// Mean of the full frame over passes.
     pub fn mean(&self, passes: Range<u32>) -> f64 {
-        let (mut sum, mut count) = (0.0, 0);
-        self.render(self.full_frame(), passes, |_, samples| {
-            sum += samples.iter().map(luminance).sum::<f64>();
-            count += samples.len();
-        });
-        sum / f64::from(count as u32)
+        let mut means = Moments::new();
+        self.render(self.full_frame(), passes, |_, samples| push_all(&mut means, samples));
+        means.mean()
+    }
+
+    /// The same, also of scenes with holes in their bodies.
+    pub fn mean_of_any(&self, passes: Range<u32>) -> f64 {
+        let mut means = Moments::new();
+        self.render_any(self.full_frame(), passes, |_, samples| push_all(&mut means, samples));
+        means.mean()
     }
 
     /// Mean over passes of the frame's square tiles of `edge` pixels, row by row; passes are the independent numbers.
@@ -87,6 +97,10 @@ impl Shot<'_> {
             self.render(self.full_frame(), 0..passes, |_, samples| moments.push(luminance(&samples[0])));
         (moments, stats)
     }
+}
+
+fn push_all(means: &mut Moments, samples: &[PixelSample]) {
+    samples.iter().for_each(|sample| means.push(luminance(sample)));
 }
 
 /// Mean of the three channels; not finite values fail.

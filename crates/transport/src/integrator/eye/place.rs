@@ -6,7 +6,7 @@ use super::within::{self, Part};
 use super::{Draws, Eye, Path, weight};
 use crate::direct::LastScatter;
 use crate::in_volume::{self, VolumeLight};
-use crate::integrator::merging::{BEAM_SHARE, Photons};
+use crate::integrator::merging::{BEAM_SHARE, Landing, Photons};
 use crate::roulette::Past;
 use crate::walk::VolumeVertex;
 use hyaline_math::{Ray, Vec3};
@@ -84,7 +84,8 @@ impl Eye<'_> {
         let points = self.points_about(path, place, photons);
         let left = self.bounces_left(path);
         let light = photons.landed.volume(place.p, radius, |photon| {
-            if photon.bounces >= left || !part.holds(photon.density) {
+            let Landing::Volume { density } = photon.landing else { return Spectrum::ZERO };
+            if photon.bounces >= left || !part.holds(density) {
                 return Spectrum::ZERO;
             }
             let phase = medium.phase.value(wo, -photon.direction);

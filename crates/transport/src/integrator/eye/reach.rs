@@ -1,13 +1,15 @@
-//! Where two surfaces meet, or one ends, a disc about a place reaches over the edge: what of it lies on the surface.
+//! Where two surfaces meet, or one ends, a disc about a place reaches over the edge: what of it lies on the surface, within
+//! the medium of the place.
 //!
-//! Photons on the other surface have seen other light and are left out. So the disc is smaller than it was taken for, by a
-//! factor that random tries tell: the mean number of points that are drawn until one lies on the surface is the whole disc
-//! over the part that does.
+//! Photons on the other surface have seen other light and are left out, and so are those in another medium: the floor is
+//! darker under glass than beside it. So the disc is smaller than it was taken for, by a factor that random tries tell: the
+//! mean number of points that are drawn until one lies in the part is the whole disc over the part.
 
 use super::Draws;
 use crate::walk::Vertex;
-use hyaline_math::{Frame, Ray, Vec3};
+use hyaline_math::{Frame, Ray, Vec3, offset_origin};
 use hyaline_sampling::warp;
+use hyaline_scattering::{MediumId, MediumSet};
 use hyaline_world::{World, mask};
 
 /// Cosine between the normals of what may pass for one surface.
@@ -18,7 +20,7 @@ const LIFT: f32 = 0.5;
 const BEYOND: f32 = 1.5;
 /// Tries, at most: a little dark is left where the part is less than a quarter of the whole.
 const MOST_TRIES: u32 = 8;
-/// Polished surfaces that a try looks through, at most.
+/// Surfaces that let light through and that a try looks through, at most.
 const MOST_HIDING: u32 = 6;
 
 /// A normal, rough enough to be small: good for telling walls from floors.
@@ -37,40 +39,107 @@ impl RoughNormal {
     }
 }
 
-/// An estimate of the disc about a vertex over the part of it that lies on the surface, ≥ 1.
-///
-/// - `wo`: unit, to the side that is looked at.
-pub(super) fn disc_over_part(
-    world: &World,
-    vertex: &Vertex,
-    wo: Vec3,
-    radius: f32,
-    draws: &mut Draws<'_>,
-) -> f32 {
-    let (p, ng) = (vertex.hit.p, vertex.hit.ng);
-    let n = if wo.dot(ng) < 0.0 { -ng } else { ng };
-    let frame = Frame::from_normal(n);
-    let from = p + n * (LIFT * radius);
-    let lies_on_it = |draws: &mut Draws<'_>| {
-        let at = warp::sample_disc(draws.sampler.next_2d()) * radius;
-        let to = p + frame.to_world(Vec3::new(at.x, at.y, 0.0));
-        let way = to - from;
-        let mut ray = Ray { t_max: BEYOND * way.length(), ..Ray::new(from, way.normalize()) };
-        // Polished surfaces hide nothing: photons land in front of them and behind.
-        for _ in 0..MOST_HIDING {
-            draws.stats.rays += 1;
-            let Some(candidate) = world.geometry.closest(&ray, mask::PATH) else { return false };
-            if world.geometry.surface(&ray, &candidate).ng.dot(ng).abs() > FLAT {
-                return true;
-            }
-            if !world.is_specular_face(candidate.item, candidate.primitive) {
-                return false;
-            }
-            ray.t_min = candidate.t.next_up();
+/// A point above a vertex, from which the surface about it is looked at.
+pub(super) struct Outlook<'a> {
+    world: &'a World,
+    vertex: &'a Vertex,
+    /// The vertex's medium.
+    within: MediumId,
+    from: Vec3,
+    /// What `from` is in.
+    set: MediumSet,
+}
+
+impl<'a> Outlook<'a> {
+    /// - `side`: a direction to the side that is looked at; `set`: what the path is in there.
+    /// - `radius`: of what is looked at; `rays` counts what is traced.
+    pub(super) fn new(
+        world: &'a World,
+        vertex: &'a Vertex,
+        (side, set): (Vec3, &MediumSet),
+        radius: f32,
+        rays: &mut u64,
+    ) -> Self {
+        let hit = &vertex.hit;
+        let n = if side.dot(hit.ng) < 0.0 { -hit.ng } else { hit.ng };
+        let start = offset_origin(hit.p, hit.p_error, hit.ng, n);
+        let up = Ray { t_max: LIFT * radius, ..Ray::new(start, n) };
+        let mut look = Look { world, vertex, set: set.clone() };
+        let mut lift = up.t_max;
+        *rays += 1;
+        if world.geometry.occluded(&up, mask::PATH)
+            && let Seen::Surface { t, .. } = look.along(up, rays)
+        {
+            lift = 0.5 * t;
         }
-        false
-    };
-    whole_over_part(|| lies_on_it(draws))
+        Self { world, vertex, within: set.active(), from: hit.p + n * lift, set: look.set }
+    }
+
+    /// Whether the surface lies at a point, or above or below it, in the medium of the vertex.
+    ///
+    /// - `p`: near the plane of the surface.
+    pub(super) fn holds(&self, p: Vec3, rays: &mut u64) -> bool {
+        let way = p - self.from;
+        let ray = Ray { t_max: BEYOND * way.length(), ..Ray::new(self.from, way.normalize()) };
+        let mut look = Look { world: self.world, vertex: self.vertex, set: self.set.clone() };
+        let seen = look.along(ray, rays);
+        matches!(seen, Seen::Surface { is_own: true, .. }) && look.set.active() == self.within
+    }
+
+    /// An estimate of the disc about the vertex over the part of it that lies on the surface, in the medium of the
+    /// vertex, ≥ 1.
+    pub(super) fn disc_over_part(&self, radius: f32, draws: &mut Draws<'_>) -> f32 {
+        let frame = Frame::from_normal(self.vertex.hit.ng);
+        whole_over_part(|| {
+            let at = warp::sample_disc(draws.sampler.next_2d()) * radius;
+            let p = self.vertex.hit.p + frame.to_world(Vec3::new(at.x, at.y, 0.0));
+            self.holds(p, &mut draws.stats.rays)
+        })
+    }
+}
+
+/// A look at the surface of a vertex from near it.
+struct Look<'a> {
+    world: &'a World,
+    vertex: &'a Vertex,
+    /// What the look is in.
+    set: MediumSet,
+}
+
+/// What a look ends at.
+enum Seen {
+    Nothing,
+    Surface {
+        /// Distance, scene units.
+        t: f32,
+        /// Whether it may be the surface of the vertex.
+        is_own: bool,
+    },
+}
+
+impl Look<'_> {
+    /// What is seen along a ray; what lets light through hides nothing, as photons land in front of it and behind.
+    fn along(&mut self, mut ray: Ray, rays: &mut u64) -> Seen {
+        let mut gone = 0.0;
+        for _ in 0..MOST_HIDING {
+            *rays += 1;
+            let Some(candidate) = self.world.geometry.closest(&ray, mask::PATH) else { return Seen::Nothing };
+            let (hit, boundary) = self.world.look_at(&ray, &candidate, &mut self.set, mask::PATH);
+            let is_flat = hit.ng.dot(self.vertex.hit.ng).abs() > FLAT;
+            let is_own = is_flat && boundary.is_some() == self.vertex.is_boundary();
+            let hides = boundary.is_none() && !self.world.is_specular_face(hit.item, hit.primitive);
+            if is_own || hides {
+                return Seen::Surface { t: gone + hit.t, is_own };
+            }
+            if let Some(boundary) = boundary {
+                boundary.commit(self.world, &mut self.set);
+            }
+            gone += hit.t;
+            ray.origin = offset_origin(hit.p, hit.p_error, hit.ng, ray.direction);
+            ray.t_max -= hit.t;
+        }
+        Seen::Nothing
+    }
 }
 
 /// An estimate of a whole over its part, ≥ 1: points of the whole that are drawn until one lies in the part.

@@ -106,6 +106,9 @@ struct Chosen {
 
 impl Chosen {
     fn offer(&mut self, arrived: Arrived, carried: f32, draws: &mut Draws<'_>) {
+        if carried == 0.0 {
+            return;
+        }
         self.total += carried;
         let is_first = self.arrived.is_none();
         if is_first || draws.sampler.next_1d() * self.total < carried {

@@ -2,14 +2,15 @@
 
 use super::merges::{Beyond, Passed, Place};
 use super::radius::INDIRECT;
+use super::reach::Outlook;
 use super::weight::{self, Side};
-use super::{Draws, Eye, Path, reach, split};
-use crate::integrator::merging::{Landed, LandedPhoton, Photons};
+use super::{Draws, Eye, Path, split};
+use crate::integrator::merging::{Landed, LandedPhoton, Landing, Photons};
 use crate::photon::specular::is_specular;
 use crate::shadow;
 use crate::walk::Vertex;
 use hyaline_math::Vec3;
-use hyaline_scattering::{BsdfSample, MediumSet, Transport};
+use hyaline_scattering::{BsdfSample, MediumId, MediumSet, Transport};
 use hyaline_spectrum::Spectrum;
 use hyaline_world::light::{DirectSample, LightChoice};
 use hyaline_world::mask;
@@ -110,6 +111,9 @@ impl Eye<'_> {
     ) -> [Gather<'a>; 2] {
         let radius = photons.radius.on_surface(vertex.hit.p);
         let carried = |radius: f32| path.throughput * (1.0 / (PI * radius * radius));
+        let near = path.set.active();
+        let far = if vertex.is_boundary() { vertex.far_set(self.world, &path.set).active() } else { near };
+        let media = [near, far];
         let caustic = Gather {
             is_indirect: false,
             carried: carried(radius),
@@ -120,7 +124,8 @@ impl Eye<'_> {
             radius,
             behind: path.merges.behind(beyond(vertex)),
             bounces_left: self.bounces_left(path),
-            ior_before: self.world.ior(path.set.active()),
+            media,
+            iors: media.map(|medium| self.world.ior(medium)),
         };
         let behind = path.merges.behind(Beyond::Wide);
         let wide = radius * INDIRECT;
@@ -224,29 +229,53 @@ pub(super) struct Gather<'a> {
     behind: f32,
     /// Bounces that photons may have made, and one more.
     bounces_left: u32,
-    /// Index on the side that the path came from.
-    ior_before: f32,
+    /// Media on the side that the path came from and on the other, and their indices.
+    media: [MediumId; 2],
+    iors: [f32; 2],
 }
 
 impl Gather<'_> {
     /// What they bring to the picture.
     fn light(&self, landed: &Landed, draws: &mut Draws<'_>) -> Spectrum {
         let Self { eye, path, vertex, wo, radius, .. } = *self;
-        let mut reaches_over = false;
-        let light = landed.on_surface(self.is_indirect, vertex.hit.p, radius, |photon| {
-            if !photon.n.is_one_surface(vertex.hit.ng) {
-                reaches_over = true;
+        let far = vertex.is_boundary().then(|| vertex.far_set(eye.world, &path.set));
+        // Each for light that is reflected and for light that comes through.
+        let sides = [(wo, &path.set), (-wo, far.as_ref().unwrap_or(&path.set))];
+        let outlook = |side, rays: &mut u64| Outlook::new(eye.world, vertex, sides[side], radius, rays);
+        let (mut reaches_over, mut is_elsewhere, mut through) = ([false; 2], [None; 2], Spectrum::ZERO);
+        let reflected = landed.on_surface(self.is_indirect, vertex.hit.p, radius, |p, photon| {
+            let Landing::Surface { n, medium } = photon.landing else { return Spectrum::ZERO };
+            if !n.is_one_surface(vertex.hit.ng) {
+                reaches_over = [true; 2];
+                return Spectrum::ZERO;
+            }
+            let side = usize::from(crosses(vertex, wo, -photon.direction));
+            // Where a mesh has holes, a photon may not know what it is in: one look tells, for all of them.
+            if medium != self.media[side]
+                && *is_elsewhere[side].get_or_insert_with(|| {
+                    !outlook(side, &mut draws.stats.rays).holds(p, &mut draws.stats.rays)
+                })
+            {
+                reaches_over[side] = true;
                 return Spectrum::ZERO;
             }
             let light = self.light_of(photon) * self.carried;
             draws.tally.note(photon.id, light);
+            // The state of the sum is one of them: more would not stay in registers.
+            if side == 1 {
+                through += light;
+                return Spectrum::ZERO;
+            }
             light
         });
-        // Where the camera looks, also over edges with nothing beyond them; farther along nobody would see the difference.
-        if (reaches_over || path.bounces == 0) && !light.is_zero() {
-            return light * reach::disc_over_part(eye.world, vertex, wo, radius, draws);
+        let mut sums = [reflected, through];
+        for side in [0, 1] {
+            // Where the camera looks, also over edges with nothing beyond them; farther along nobody would see the difference.
+            if (reaches_over[side] || path.bounces == 0) && !sums[side].is_zero() {
+                sums[side] *= outlook(side, &mut draws.stats.rays).disc_over_part(radius, draws);
+            }
         }
-        light
+        sums[0] + sums[1]
     }
 
     /// Weighted light of a photon, sent back along the path, times the area it is gathered from.
@@ -265,15 +294,12 @@ impl Gather<'_> {
     /// - `wi`: unit, against the photon; `pdf`: its density for the path, sr⁻¹.
     /// - `others`: what the photon's side knows of them.
     pub(super) fn weight_of(&self, wi: Vec3, pdf: f32, mut others: f32) -> f32 {
-        let Self { eye, path, vertex, wo, ior_before, .. } = *self;
-        let ior = match crosses(vertex, wo, wi) {
-            true => eye.world.ior(vertex.far_set(eye.world, &path.set).active()),
-            false => ior_before,
-        };
+        let Self { vertex, wo, iors, .. } = *self;
+        let ior = iors[usize::from(crosses(vertex, wo, wi))];
         let toward_light = side(vertex, wi, pdf, ior);
         let own = weight::at_receiver(self.radius, ior, toward_light.cos, toward_light.pdf);
         if self.behind > 0.0 {
-            let back = side(vertex, wo, vertex.bsdf.pdf(wi, wo), ior_before);
+            let back = side(vertex, wo, vertex.bsdf.pdf(wi, wo), iors[0]);
             let across = weight::across(back, toward_light);
             others += self.behind * across * across;
         }

@@ -39,10 +39,7 @@ impl PhotonId {
 pub(in crate::integrator) struct LandedPhoton {
     /// The way it travelled, unit.
     pub(in crate::integrator) direction: Vec3,
-    /// Geometric normal of the surface that it lies on; none in a medium.
-    pub(in crate::integrator) n: RoughNormal,
-    /// Density of the medium that it was scattered in; 0 on a surface.
-    pub(in crate::integrator) density: f32,
+    pub(in crate::integrator) landing: Landing,
     /// W, over all photons of its sender in the pass; in a medium times the way that it goes before it is scattered there,
     /// scene units.
     pub(in crate::integrator) flux: Spectrum,
@@ -52,6 +49,21 @@ pub(in crate::integrator) struct LandedPhoton {
     /// Scatterings before it landed, singular ones not counted.
     pub(in crate::integrator) bounces: u32,
     pub(in crate::integrator) id: PhotonId,
+}
+
+/// What a photon has landed on, or in.
+#[derive(Clone, Copy, Debug)]
+pub(in crate::integrator) enum Landing {
+    Surface {
+        /// Its geometric normal.
+        n: RoughNormal,
+        /// What lies in front of it, where the photon came from.
+        medium: MediumId,
+    },
+    Volume {
+        /// Density of the medium, which has a grid.
+        density: f32,
+    },
 }
 
 /// Photons that have landed at points.
@@ -103,12 +115,14 @@ impl Landed {
 
     /// Sum of the light of every photon on a surface within a radius: of those that have been scattered widely on their way,
     /// or of those that have come over polished and nearly polished surfaces alone.
+    ///
+    /// - `light`: of a photon at a place.
     pub(in crate::integrator) fn on_surface(
         &self,
         is_indirect: bool,
         p: Vec3,
         radius: f32,
-        light: impl FnMut(&LandedPhoton) -> Spectrum,
+        light: impl FnMut(Vec3, &LandedPhoton) -> Spectrum,
     ) -> Spectrum {
         sum(if is_indirect { &self.indirect } else { &self.caustic }, p, radius, light)
     }
@@ -118,9 +132,9 @@ impl Landed {
         &self,
         p: Vec3,
         radius: f32,
-        light: impl FnMut(&LandedPhoton) -> Spectrum,
+        mut light: impl FnMut(&LandedPhoton) -> Spectrum,
     ) -> Spectrum {
-        sum(&self.volume, p, radius, light)
+        sum(&self.volume, p, radius, |_, photon| light(photon))
     }
 }
 
@@ -128,8 +142,10 @@ fn sum(
     tree: &PointTree<LandedPhoton>,
     center: Vec3,
     radius: f32,
-    mut light: impl FnMut(&LandedPhoton) -> Spectrum,
+    mut light: impl FnMut(Vec3, &LandedPhoton) -> Spectrum,
 ) -> Spectrum {
     let region = Region { center, radius, disc: None };
-    tree.fold_within(&region, Spectrum::ZERO, |sum, index, _| sum + light(tree.payload(index)))
+    tree.fold_within(&region, Spectrum::ZERO, |sum, index, _| {
+        sum + light(tree.position(index), tree.payload(index))
+    })
 }

@@ -4,7 +4,7 @@
 //! path, as the path from the eye carries that of its own side (`eye/merges`, `eye/weight`).
 
 use super::beams::Beam;
-use super::landed::{Landed, LandedPhoton, PhotonId, Points};
+use super::landed::{Landed, LandedPhoton, Landing, PhotonId, Points};
 use super::origin::Origin;
 use super::sender::{BEAM_SHARE, Sender, Senders};
 use crate::RenderSettings;
@@ -173,7 +173,7 @@ impl Light<'_> {
         if photon.lands() && !vertex.bsdf.is_delta() {
             let points = &mut chunk.points;
             let points = if photon.is_indirect { &mut points.indirect } else { &mut points.caustic };
-            points.push((vertex.hit.p, photon.landed(vertex.hit.ng)));
+            points.push((vertex.hit.p, photon.landed_on(vertex.hit.ng)));
         }
         let wo = -photon.ray.direction;
         let (u_lobe, u): (f32, Vec2) = (sampler.next_1d(), sampler.next_2d());
@@ -337,18 +337,21 @@ impl Photon<'_> {
         (self.vertices == 0).then_some(self.origin)
     }
 
-    /// - `n`: geometric normal where it lands.
-    fn landed(&self, n: Vec3) -> LandedPhoton {
-        let (direction, n) = (self.ray.direction, RoughNormal::new(n));
-        let Self { flux, others, bounces, id, .. } = *self;
-        LandedPhoton { direction, n, density: 0.0, flux, others, bounces, id }
+    /// - `n`: geometric normal of the surface.
+    fn landed_on(&self, n: Vec3) -> LandedPhoton {
+        self.landed(Landing::Surface { n: RoughNormal::new(n), medium: self.set.active() }, self.flux)
     }
 
     /// - `p`: where the medium has scattered it, which its flux has been told.
     fn landed_in(&self, medium: &Medium, p: Vec3) -> LandedPhoton {
         let density = medium.density(p);
         let way = medium.sigma_s_at(p, density).map(|sigma| if sigma > 0.0 { 1.0 / sigma } else { 0.0 });
-        LandedPhoton { density, flux: self.flux * way, ..self.landed(Vec3::ZERO) }
+        self.landed(Landing::Volume { density }, self.flux * way)
+    }
+
+    fn landed(&self, landing: Landing, flux: Spectrum) -> LandedPhoton {
+        let Self { others, bounces, id, .. } = *self;
+        LandedPhoton { direction: self.ray.direction, landing, flux, others, bounces, id }
     }
 
     /// Accounts for a vertex that is not singular.

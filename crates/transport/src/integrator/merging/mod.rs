@@ -40,7 +40,7 @@ pub(super) use beams::{Beam, Passing};
 use glints::Glints;
 use hyaline_film::{PixelSample, Rect};
 use hyaline_world::World;
-pub(super) use landed::{Landed, LandedPhoton, PhotonId};
+pub(super) use landed::{Landed, LandedPhoton, Landing, PhotonId};
 pub(super) use light::Light;
 #[cfg(test)]
 pub(super) use light::Photon;
