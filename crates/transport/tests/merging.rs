@@ -16,12 +16,12 @@ use std::ops::Range;
 use std::sync::Arc;
 
 /// Relative error of the difference above which nothing would be shown.
-const POWER: f64 = 0.006;
+const POWER: f64 = 0.008;
 /// The same where few photons and few paths carry much of the light.
-const POWER_UNDER_WATER: f64 = 0.009;
+const POWER_UNDER_WATER: f64 = 0.012;
 /// Passes so late that their radius is a fortieth of the first one's: with pixels as large as these, blur would carry
 /// light across edges, out of the glass that it is in.
-const LATE: Range<u32> = 4_000_000..4_000_024;
+const LATE: Range<u32> = 4_000_000..4_000_016;
 
 /// Mean of a picture over some passes, for as many seeds as it takes to know a difference of two to `power`.
 fn means(world: &World, integrator: &str, passes: Range<u32>, power: f64) -> Moments {
@@ -203,7 +203,7 @@ fn assert_shines_like_the_sky(mut kit: SceneKit, passes: Range<u32>, what: &str)
     kit.sky(1.0).camera(DVec3::Z * 4.0, DVec3::ZERO);
     kit.description.cameras[0].projection = Projection::Perspective { fov: 0.4, fov_axis: FovAxis::Y };
     let world = kit.world();
-    let mean = known_to(0.006, 0, |seed| {
+    let mean = known_to(POWER, 0, |seed| {
         let settings = RenderSettings { seed, ..settings() };
         Shot { world: &world, integrator: "merging", settings, size: (12, 12) }.mean(passes.clone())
     });
