@@ -14,9 +14,10 @@ pub struct Techniques {
     pub sampling: bool,
     /// Photons that are merged, in `merging` alone; none is sent for it where this is off.
     pub merging: bool,
-    /// Both ways are gone at the first polished surfaces, in `merging` alone.
+    /// At the first polished surfaces both ways are gone in `merging`, and one of the faint ways as well in `path`.
     pub splitting: bool,
-    /// More looks through glass where lamps are seen as glints smaller than a pixel; nothing without splitting.
+    /// More looks through glass where lamps are seen as glints smaller than a pixel, in `merging` alone; nothing without
+    /// splitting.
     pub glints: bool,
     /// Photons are aimed at what is polished, by projection maps.
     pub projection: bool,

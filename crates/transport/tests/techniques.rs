@@ -19,9 +19,13 @@ const POWER: f64 = 0.01;
 
 /// Mean of a picture by some of the ways, for as many seeds as that takes; different ways draw different numbers.
 fn means(world: &World, techniques: Techniques, first_seed: u64) -> Moments {
+    means_of("merging", world, techniques, first_seed)
+}
+
+fn means_of(integrator: &str, world: &World, techniques: Techniques, first_seed: u64) -> Moments {
     known_to(0.7 * POWER, first_seed, |seed| {
         let settings = RenderSettings { seed, techniques, ..settings() };
-        Shot { world, integrator: "merging", settings, size: (16, 16) }.mean(LATE)
+        Shot { world, integrator, settings, size: (16, 16) }.mean(LATE)
     })
 }
 
@@ -62,6 +66,33 @@ fn lamps_are_found_as_well_without_hits_samples_or_photons() {
         ("hits and photons", Techniques { hits: false, merging: false, ..Techniques::default() }),
     ];
     assert_same_without(&world, &ways, "lamp");
+}
+
+#[test]
+fn of_faint_reflections_one_stands_for_all() {
+    // A glass of water close by, in a room that the lamps in it light: `path` draws one of the ways on which they are seen.
+    let mut kit = hollow(|kit| {
+        for x in [-0.7, 0.0, 0.7] {
+            kit.lamp(&format!("lamp {x}"), sphere(DVec3::new(x, 0.9, 0.9), 0.25), 4.0);
+        }
+    });
+    kit.medium("water", 1.333);
+    let glass = tumbler(RimKind::Round, &[("water", 0.75, 0.001)], 8.0);
+    kit.object("tumbler", glass, BoundaryDescription::None, "dielectric");
+    kit.camera(DVec3::new(0.0, 0.5, 1.4), DVec3::new(0.0, 0.35, 0.0));
+    let world = kit.world();
+    let whole = means_of("path", &world, Techniques::default(), 0);
+    let unsplit = Techniques { splitting: false, ..Techniques::default() };
+    assert_same(&whole, &means_of("path", &world, unsplit, 1000), POWER, "faint reflections");
+    // In an even field nothing is left to chance but what each way carries.
+    let mut furnace = SceneKit::new();
+    furnace.medium("glass", 1.5).solid("ball", sphere(DVec3::ZERO, 1.0), "glass");
+    furnace.medium("water", 1.333).solid("drop", sphere(DVec3::ZERO, 0.7), "water");
+    furnace.sky(1.0).camera(DVec3::Z * 3.0, DVec3::ZERO);
+    let mean = means_of("path", &furnace.world(), Techniques::default(), 0);
+    let error = mean.variance_of_mean().sqrt();
+    println!("{} ± {error}", mean.mean());
+    assert!((mean.mean() - 1.0).abs() < 3.0 * error + 1e-4, "{} ± {error}", mean.mean());
 }
 
 #[test]

@@ -81,7 +81,6 @@ impl World {
     }
 
     /// The same for those who look and carry no light: the surface, and what crossing it changes where media meet there.
-    /// Holes in sheets are not looked into.
     pub fn look_at(
         &self,
         ray: &Ray,
@@ -89,8 +88,8 @@ impl World {
         set: &mut MediumSet,
         visible: u8,
     ) -> (SurfaceHit, Option<Encounter>) {
-        let object = self.items[candidate.item as usize].object;
-        if self.boundaries.of(object) == BoundaryKind::None {
+        let item = &self.items[candidate.item as usize];
+        if self.boundaries.of(item.object) == BoundaryKind::None && !item.may_coincide {
             return (self.geometry.surface(ray, candidate), None);
         }
         // What was never entered is told by the rays that carry light.

@@ -6,7 +6,7 @@
 //! 3. If the vertex is not singular, gather the photons about it, sample a light, and add what reaches the vertex. Without
 //!    photons, ask for light over polished surfaces, too (`aimed`).
 //! 4. Go on in a direction drawn from the BSDF or phase function. Singular crossings are free: there is no limit on them.
-//!    Where photons bring the caustics, both ways are gone at the first polished surfaces (`split`).
+//!    At the first polished surfaces more than one way is gone (`split`).
 //! 5. Weak paths end by roulette on their throughput without the n² factor, so none dies for being inside glass.
 
 pub(super) mod aim;
@@ -108,8 +108,7 @@ impl Eye<'_> {
 
     /// Whether both ways are gone at polished surfaces.
     pub(super) fn splits(&self) -> bool {
-        // Where no photons bring the caustics, their noise is larger than that of highlights, and more paths do more for both.
-        self.settings.techniques.splitting && self.aim.is_none() && self.world.lights.any_can_be_met()
+        self.settings.techniques.splitting && self.world.lights.any_can_be_met()
     }
 
     fn estimate(&self, path: Path, draws: &mut Draws<'_>, first: &mut Option<&mut PixelSample>) -> Seen {

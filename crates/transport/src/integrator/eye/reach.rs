@@ -28,7 +28,7 @@ const MOST_HIDING: u32 = 6;
 pub(in crate::integrator) struct RoughNormal([i8; 3]);
 
 impl RoughNormal {
-    /// - `n`: unit, or 0 for none.
+    /// - `n`: unit.
     pub(in crate::integrator) fn new(n: Vec3) -> Self {
         Self((n * 127.0).to_array().map(|x| x as i8))
     }
@@ -63,16 +63,17 @@ impl<'a> Outlook<'a> {
         let hit = &vertex.hit;
         let n = if side.dot(hit.ng) < 0.0 { -hit.ng } else { hit.ng };
         let start = offset_origin(hit.p, hit.p_error, hit.ng, n);
-        let up = Ray { t_max: LIFT * radius, ..Ray::new(start, n) };
-        let mut look = Look { world, vertex, set: set.clone() };
-        let mut lift = up.t_max;
+        let look = || Look { world, vertex, set: set.clone() };
+        let up = |lift| Ray { t_max: lift, ..Ray::new(start, n) };
+        let (mut lift, mut above) = (LIFT * radius, look());
         *rays += 1;
-        if world.geometry.occluded(&up, mask::PATH)
-            && let Seen::Surface { t, .. } = look.along(up, rays)
+        if world.geometry.occluded(&up(lift), mask::PATH)
+            && let Seen::Surface { t, .. } = above.along(up(lift), rays)
         {
-            lift = 0.5 * t;
+            (lift, above) = (0.5 * t, look());
+            above.along(up(lift), rays);
         }
-        Self { world, vertex, within: set.active(), from: hit.p + n * lift, set: look.set }
+        Self { world, vertex, within: set.active(), from: start + n * lift, set: above.set }
     }
 
     /// Whether the surface lies at a point, or above or below it, in the medium of the vertex.

@@ -3,9 +3,12 @@
 //! What glass mirrors is faint but for lamps: one path in 25 would see them, 25 times as bright, and every highlight would
 //! be a speckle. Split paths see them all, each by its share. Of the places where the parts leave polished surfaces one is
 //! chosen, by what its part carries, and the path goes on from there alone: behind polished surfaces it costs what it did.
+//!
+//! Where no photons bring the caustics, these are noisier than highlights, and more paths do more for both than many parts do:
+//! of the faint parts of a path one is drawn, by what it carries, and stands for all.
 
 use super::{Draws, Eye, Path, Seen};
-use crate::walk::{Event, Flown};
+use crate::walk::{Event, Flown, Vertex};
 use hyaline_film::PixelSample;
 use hyaline_scattering::{Branch, BsdfSample};
 use hyaline_spectrum::Spectrum;
@@ -13,8 +16,12 @@ use smallvec::SmallVec;
 
 /// Parts that wait to be followed, at most: where more are asked for, chance decides.
 const MOST_WAITING: usize = 8;
-/// What each part of a split path carries at least, of what the whole path started with.
+/// Parts that are drawn one after the other, at most: then, too.
+const MOST_DRAWN: u32 = 8;
+/// What each part of a split path carries at least, of what the whole path started with, where all parts are followed.
 const FAINTEST: f32 = 0.015;
+/// The same where one of them is drawn: those that are not cost nothing.
+const FAINTEST_DRAWN: f32 = 0.005;
 /// Chance of a place that sends nothing on, over that of a white one.
 const LEAST_ALBEDO: f32 = 0.02;
 
@@ -35,48 +42,74 @@ impl Eye<'_> {
         first: &mut Option<&mut PixelSample>,
     ) -> (Seen, Option<Arrived>) {
         let mut seen = Seen::default();
-        let mut chosen = Chosen::default();
+        // Places where the parts leave polished surfaces, and faint parts of which one is followed.
+        let mut left = Choice::new(draws.sampler.next_1d());
+        let mut drawn = Choice::new(draws.sampler.next_1d());
         let mut waiting = SmallVec::<[Path; MOST_WAITING]>::new();
+        let mut rounds = 0;
         let mut next = Some(path);
         while let Some(mut path) = next {
             let mut at = self.walk(&mut path, draws);
             let goes_on = self.arrive(&mut path, &mut at, first);
             seen.add(std::mem::take(&mut path.seen));
-            let is_polished = matches!(&at, Flown::Arrived(Event::Surface(v)) if v.bsdf.is_delta());
-            next = if !goes_on {
-                waiting.pop()
-            } else if is_polished {
-                let part = self.split(&mut path, &at, waiting.len());
-                let goes_on = part.is_some() || self.scatter(&mut path, &at, draws);
-                waiting.extend(part);
-                if goes_on { Some(path) } else { waiting.pop() }
-            } else {
-                let carried = self.carried(&path) * self.albedo(&at).max(LEAST_ALBEDO);
-                chosen.offer(Arrived { path, at }, carried, draws);
-                waiting.pop()
+            let polished = match &at {
+                Flown::Arrived(Event::Surface(vertex)) if vertex.bsdf.is_delta() => Some(vertex),
+                _ => None,
             };
+            next = if !goes_on {
+                None
+            } else if let Some(vertex) = polished {
+                let may_split = waiting.len() < MOST_WAITING && rounds < MOST_DRAWN;
+                match self.ways(&path, vertex).filter(|_| may_split) {
+                    Some([strong, faint]) => {
+                        let part = |path: &Path| {
+                            let mut part = path.clone();
+                            self.turn(&mut part, vertex, &taken(&faint));
+                            part
+                        };
+                        if !self.follows_one() {
+                            waiting.push(part(&path));
+                        } else if drawn.takes(self.carried(&path) * self.share(&faint)) {
+                            drawn.chosen = Some(part(&path));
+                        }
+                        self.turn(&mut path, vertex, &taken(&strong));
+                        Some(path)
+                    }
+                    None => self.scatter(&mut path, &at, draws).then_some(path),
+                }
+            } else {
+                if left.takes(self.carried(&path) * self.albedo(&at).max(LEAST_ALBEDO)) {
+                    left.chosen = Some(Arrived { path, at });
+                }
+                None
+            };
+            next = next.or_else(|| waiting.pop()).or_else(|| {
+                rounds += 1;
+                let (part, weight) = drawn.take()?;
+                Some(part.weighted(weight))
+            });
         }
-        (seen, chosen.take())
+        let goes_on =
+            left.take().map(|(Arrived { path, at }, weight)| Arrived { path: path.weighted(weight), at });
+        (seen, goes_on)
     }
 
-    /// Splits a path at a polished surface, if it is to be split there: the path goes the stronger way.
-    ///
-    /// Returns the part that goes the other way.
-    fn split(&self, path: &mut Path, at: &Flown, waiting: usize) -> Option<Path> {
-        let Flown::Arrived(Event::Surface(vertex)) = at else { return None };
-        if waiting >= MOST_WAITING {
-            return None;
-        }
+    /// Whether of the faint parts of a path one is followed, and not all.
+    fn follows_one(&self) -> bool {
+        self.aim.is_some()
+    }
+
+    /// The stronger way and the fainter one at a polished surface, if the path is to go both.
+    fn ways(&self, path: &Path, vertex: &Vertex) -> Option<[Branch; 2]> {
         let [Some(first), Some(second)] = vertex.bsdf.branches(-path.ray.direction) else { return None };
-        let share = |branch: &Branch| share(branch.weight, branch.eta_scale, self.world.lanes);
-        let (strong, faint) = if share(&first) >= share(&second) { (first, second) } else { (second, first) };
-        if self.carried(path) * share(&faint) < FAINTEST {
-            return None;
-        }
-        let mut part = path.clone();
-        self.turn(&mut part, vertex, &taken(&faint));
-        self.turn(path, vertex, &taken(&strong));
-        Some(part)
+        let [strong, faint] =
+            if self.share(&first) >= self.share(&second) { [first, second] } else { [second, first] };
+        let faintest = if self.follows_one() { FAINTEST_DRAWN } else { FAINTEST };
+        (self.carried(path) * self.share(&faint) >= faintest).then_some([strong, faint])
+    }
+
+    fn share(&self, branch: &Branch) -> f32 {
+        share(branch.weight, branch.eta_scale, self.world.lanes)
     }
 
     /// What is left of what the path started with, without the n² factors.
@@ -96,31 +129,48 @@ impl Eye<'_> {
     }
 }
 
-/// One of several parts, each chosen with a probability in proportion to what it carries.
-#[derive(Default)]
-struct Chosen {
-    arrived: Option<Arrived>,
-    carried: f32,
-    total: f32,
+impl Path {
+    fn weighted(mut self, weight: f32) -> Self {
+        self.throughput *= weight;
+        self
+    }
 }
 
-impl Chosen {
-    fn offer(&mut self, arrived: Arrived, carried: f32, draws: &mut Draws<'_>) {
-        if carried == 0.0 {
-            return;
-        }
-        self.total += carried;
-        let is_first = self.arrived.is_none();
-        if is_first || draws.sampler.next_1d() * self.total < carried {
-            (self.arrived, self.carried) = (Some(arrived), carried);
-        }
+/// One of several things, each chosen with a probability in proportion to what it carries.
+struct Choice<T> {
+    chosen: Option<T>,
+    carried: f32,
+    total: f32,
+    /// Uniform in 0…1, whatever has been chosen: one number is enough for all, and paths of a pixel draw alike.
+    u: f32,
+}
+
+impl<T> Choice<T> {
+    fn new(u: f32) -> Self {
+        Self { chosen: None, carried: 0.0, total: 0.0, u }
     }
 
-    /// The choice, with the weight of those that were not chosen.
-    fn take(self) -> Option<Arrived> {
-        let mut arrived = self.arrived?;
-        arrived.path.throughput *= self.total / self.carried;
-        Some(arrived)
+    /// Whether the next thing is chosen, for now; then it is to be put in place of the last.
+    fn takes(&mut self, carried: f32) -> bool {
+        if carried == 0.0 {
+            return false;
+        }
+        self.total += carried;
+        let chance = carried / self.total;
+        let takes = self.u < chance;
+        if takes {
+            (self.carried, self.u) = (carried, self.u / chance);
+        } else {
+            self.u = (self.u - chance) / (1.0 - chance);
+        }
+        takes
+    }
+
+    /// What was chosen, and its weight, with which it stands for all; there is no choice then.
+    fn take(&mut self) -> Option<(T, f32)> {
+        let weight = self.total / self.carried;
+        (self.carried, self.total) = (0.0, 0.0);
+        Some((self.chosen.take()?, weight))
     }
 }
 
