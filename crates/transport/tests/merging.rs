@@ -16,12 +16,12 @@ use std::ops::Range;
 use std::sync::Arc;
 
 /// Relative error of the difference above which nothing would be shown.
-const POWER: f64 = 0.008;
+const POWER: f64 = 0.006;
 /// The same where few photons and few paths carry much of the light.
-const POWER_UNDER_WATER: f64 = 0.012;
+const POWER_UNDER_WATER: f64 = 0.009;
 /// Passes so late that their radius is a fortieth of the first one's: with pixels as large as these, blur would carry
 /// light across edges, out of the glass that it is in.
-const LATE: Range<u32> = 4_000_000..4_000_016;
+const LATE: Range<u32> = 4_000_000..4_000_024;
 
 /// Mean of a picture over some passes, for as many seeds as it takes to know a difference of two to `power`.
 fn means(world: &World, integrator: &str, passes: Range<u32>, power: f64) -> Moments {

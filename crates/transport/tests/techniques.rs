@@ -15,7 +15,7 @@ use std::ops::Range;
 /// Passes so late that blur is small.
 const LATE: Range<u32> = 62_500..62_508;
 /// Relative error of a difference above which nothing would be shown.
-const POWER: f64 = 0.01;
+const POWER: f64 = 0.008;
 
 /// Mean of a picture by some of the ways, for as many seeds as that takes; different ways draw different numbers.
 fn means(world: &World, techniques: Techniques, first_seed: u64) -> Moments {

@@ -89,6 +89,7 @@ impl World {
         visible: u8,
     ) -> (SurfaceHit, Option<Encounter>) {
         let item = &self.items[candidate.item as usize];
+        // A sheet that lies on a boundary may have a hole there.
         if self.boundaries.of(item.object) == BoundaryKind::None && !item.may_coincide {
             return (self.geometry.surface(ray, candidate), None);
         }

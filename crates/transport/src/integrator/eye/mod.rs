@@ -106,7 +106,7 @@ impl Eye<'_> {
         seen
     }
 
-    /// Whether both ways are gone at polished surfaces.
+    /// Whether more than one way is gone at polished surfaces.
     pub(super) fn splits(&self) -> bool {
         self.settings.techniques.splitting && self.world.lights.any_can_be_met()
     }

@@ -62,15 +62,14 @@ impl Eye<'_> {
                 let may_split = waiting.len() < MOST_WAITING && rounds < MOST_DRAWN;
                 match self.ways(&path, vertex).filter(|_| may_split) {
                     Some([strong, faint]) => {
-                        let part = |path: &Path| {
+                        let part = || {
                             let mut part = path.clone();
                             self.turn(&mut part, vertex, &taken(&faint));
                             part
                         };
-                        if !self.follows_one() {
-                            waiting.push(part(&path));
-                        } else if drawn.takes(self.carried(&path) * self.share(&faint)) {
-                            drawn.chosen = Some(part(&path));
+                        match self.follows_one() {
+                            true => drawn.offer(self.carried(&path) * self.share(&faint), part),
+                            false => waiting.push(part()),
                         }
                         self.turn(&mut path, vertex, &taken(&strong));
                         Some(path)
@@ -78,9 +77,8 @@ impl Eye<'_> {
                     None => self.scatter(&mut path, &at, draws).then_some(path),
                 }
             } else {
-                if left.takes(self.carried(&path) * self.albedo(&at).max(LEAST_ALBEDO)) {
-                    left.chosen = Some(Arrived { path, at });
-                }
+                let carried = self.carried(&path) * self.albedo(&at).max(LEAST_ALBEDO);
+                left.offer(carried, || Arrived { path, at });
                 None
             };
             next = next.or_else(|| waiting.pop()).or_else(|| {
@@ -141,7 +139,8 @@ struct Choice<T> {
     chosen: Option<T>,
     carried: f32,
     total: f32,
-    /// Uniform in 0…1, whatever has been chosen: one number is enough for all, and paths of a pixel draw alike.
+    /// Uniform in 0…1, whatever has been chosen: one number is enough for all, and those of the sampler that follow mean the
+    /// same for all paths of a pixel.
     u: f32,
 }
 
@@ -150,27 +149,24 @@ impl<T> Choice<T> {
         Self { chosen: None, carried: 0.0, total: 0.0, u }
     }
 
-    /// Whether the next thing is chosen, for now; then it is to be put in place of the last.
-    fn takes(&mut self, carried: f32) -> bool {
+    /// Chooses among what was offered before and this; `thing` is made only if it is chosen.
+    fn offer(&mut self, carried: f32, thing: impl FnOnce() -> T) {
         if carried == 0.0 {
-            return false;
+            return;
         }
         self.total += carried;
         let chance = carried / self.total;
-        let takes = self.u < chance;
-        if takes {
-            (self.carried, self.u) = (carried, self.u / chance);
+        if self.u < chance {
+            (self.chosen, self.carried, self.u) = (Some(thing()), carried, self.u / chance);
         } else {
             self.u = (self.u - chance) / (1.0 - chance);
         }
-        takes
     }
 
     /// What was chosen, and its weight, with which it stands for all; there is no choice then.
     fn take(&mut self) -> Option<(T, f32)> {
-        let weight = self.total / self.carried;
-        (self.carried, self.total) = (0.0, 0.0);
-        Some((self.chosen.take()?, weight))
+        let chosen = self.chosen.take()?;
+        Some((chosen, std::mem::take(&mut self.total) / self.carried))
     }
 }
 

@@ -238,10 +238,12 @@ impl Gather<'_> {
     /// What they bring to the picture.
     fn light(&self, landed: &Landed, draws: &mut Draws<'_>) -> Spectrum {
         let Self { eye, path, vertex, wo, radius, .. } = *self;
-        let far = vertex.is_boundary().then(|| vertex.far_set(eye.world, &path.set));
-        // Each for light that is reflected and for light that comes through.
-        let sides = [(wo, &path.set), (-wo, far.as_ref().unwrap_or(&path.set))];
-        let outlook = |side, rays: &mut u64| Outlook::new(eye.world, vertex, sides[side], radius, rays);
+        // Side 0 is that of light which is reflected, 1 that of light which comes through.
+        let outlook = |side, rays: &mut u64| {
+            let far = (side == 1).then(|| vertex.far_set(eye.world, &path.set));
+            let (toward, set) = far.as_ref().map_or((wo, &path.set), |far| (-wo, far));
+            Outlook::new(eye.world, vertex, (toward, set), radius, rays)
+        };
         let (mut reaches_over, mut is_elsewhere, mut through) = ([false; 2], [None; 2], Spectrum::ZERO);
         let reflected = landed.on_surface(self.is_indirect, vertex.hit.p, radius, |p, photon| {
             let Landing::Surface { n, medium } = photon.landing else { return Spectrum::ZERO };
