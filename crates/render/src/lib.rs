@@ -20,4 +20,4 @@ pub use settings::render_settings;
 pub use workers::Workers;
 
 /// Version of all that decides on pictures, part of a film's digest; raised whenever a picture changes.
-pub const ALGORITHM_VERSION: u32 = 16;
+pub const ALGORITHM_VERSION: u32 = 17;

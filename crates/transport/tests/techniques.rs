@@ -81,9 +81,16 @@ fn of_faint_reflections_one_stands_for_all() {
     kit.object("tumbler", glass, BoundaryDescription::None, "dielectric");
     kit.camera(DVec3::new(0.0, 0.5, 1.4), DVec3::new(0.0, 0.35, 0.0));
     let world = kit.world();
-    let whole = means_of("path", &world, Techniques::default(), 0);
-    let unsplit = Techniques { splitting: false, ..Techniques::default() };
-    assert_same(&whole, &means_of("path", &world, unsplit, 1000), POWER, "faint reflections");
+    let means = |techniques, first_seed| {
+        known_to(0.7 * POWER, first_seed, |seed| {
+            let settings = RenderSettings { seed, techniques, ..settings() };
+            // In the cusp where the water climbs the glass, a path in some millions starts beyond the next surface.
+            Shot { world: &world, integrator: "path", settings, size: (16, 16) }.mean_of_any(LATE)
+        })
+    };
+    let whole = means(Techniques::default(), 0);
+    let unsplit = means(Techniques { splitting: false, ..Techniques::default() }, 1000);
+    assert_same(&whole, &unsplit, POWER, "faint reflections");
     // In an even field nothing is left to chance but what each way carries.
     let mut furnace = SceneKit::new();
     furnace.medium("glass", 1.5).solid("ball", sphere(DVec3::ZERO, 1.0), "glass");

@@ -16,9 +16,6 @@ pub const START_NUMBERS: usize = 5;
 
 /// Share of the photons that is spread evenly, whatever has been learned: nothing is left out.
 const EVEN_SHARE: f64 = 0.5;
-/// Density where light is found, on geometric average, from which on photons are guided: those that find something have more
-/// to do, and below this it does not pay.
-const LEAST_GAIN: f64 = 8.0;
 /// Found light that a box must hold to be halved, photons.
 const LEAST_FOUND: usize = 8;
 /// Halvings of a box, at most.
@@ -59,7 +56,10 @@ impl Default for Guide {
 
 impl Guide {
     /// Learns from photons; nothing is known without any that found something, and where light is found nearly everywhere.
-    pub fn learn(found: &[Found]) -> Self {
+    ///
+    /// - `least_gain`: density where light is found, on geometric average, from which on photons are guided: those that find
+    ///   something have more to do, and below this it does not pay.
+    pub fn learn(found: &[Found], least_gain: f64) -> Self {
         let mut all: Vec<Found> = found.iter().copied().filter(|found| found.worth > 0.0).collect();
         let most = MOST_WORTH * sum(&all) / all.len() as f64;
         for found in &mut all {
@@ -77,7 +77,7 @@ impl Guide {
             .iter()
             .map(|found| f64::from(found.worth) * float::ln(f64::from(guide.density(&found.numbers))));
         let gain = float::exp(logs.sum::<f64>() / total);
-        if gain < LEAST_GAIN { Self::default() } else { guide }
+        if gain < least_gain { Self::default() } else { guide }
     }
 
     /// Turns evenly spread numbers into those that a photon starts from; returns the density there as well.

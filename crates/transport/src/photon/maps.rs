@@ -3,6 +3,7 @@
 use super::clip::Clip;
 use super::emission::PhotonEmitter;
 use super::gather::{Estimate, PhotonMap};
+use super::guide::Guide;
 use super::record::{Photon, PhotonKind};
 use super::stopwatch::TotalTime;
 use super::trace::{MapKind, PhotonTracer};
@@ -214,7 +215,8 @@ fn tracer<'w>(
     emitter: &'w PhotonEmitter<'w>,
     map: MapKind,
 ) -> PhotonTracer<'w> {
-    PhotonTracer { world, emitter, map, seed: settings.seed, max_bounces: max_bounces(settings, map) }
+    let (max_bounces, guide) = (max_bounces(settings, map), Guide::default());
+    PhotonTracer { world, emitter, map, seed: settings.seed, max_bounces, guide }
 }
 
 /// Traces and builds the maps of media that scatter.

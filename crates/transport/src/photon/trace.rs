@@ -1,7 +1,7 @@
 //! Photons from the lights to where they are kept.
 //!
-//! 1. Emit photon i with its own random numbers: toward anything for the global map, toward specular surfaces for
-//!    caustics.
+//! 1. Emit photon i with its own random numbers, which a guide may have warped: toward anything for the global map,
+//!    toward specular surfaces for caustics.
 //! 2. Walk to the next surface; the medium on the way takes its share of the flux. Or, but for caustics, to the particle
 //!    of a medium that scatters the photon before.
 //! 3. At a surface that is not specular, keep the photon if its kind is wanted; at a particle likewise.
@@ -12,7 +12,8 @@
 //! Photons are traced in chunks of fixed size, kept in order: the same map for any number of threads.
 //! Source: Jensen, Realistic Image Synthesis Using Photon Mapping, 2001, ch. 5 and §10.3.
 
-use super::emission::{PhotonEmitter, PhotonStart};
+use super::emission::{PhotonEmitter, PhotonStart, start_numbers};
+use super::guide::{Found, Guide, START_NUMBERS};
 use super::record::{Photon, PhotonKind};
 use super::specular::{is_specular, is_specular_event};
 use crate::in_volume;
@@ -99,6 +100,8 @@ pub struct PhotonTracer<'w> {
     pub seed: u64,
     /// Bounces at most, singular ones not counted.
     pub max_bounces: u32,
+    /// What they start from more often than the lights by themselves have it.
+    pub guide: Guide,
 }
 
 impl PhotonTracer<'_> {
@@ -118,6 +121,37 @@ impl PhotonTracer<'_> {
     ) -> Vec<(MediumId, Photon)> {
         let Kept { photons, media } = self.trace_all(count, cancel, stats);
         media.into_iter().zip(photons).collect()
+    }
+
+    /// What those of `count` photons start from that are worth something where they are kept.
+    ///
+    /// Stops early, with fewer photons, when `cancel` is set.
+    ///
+    /// - `worth`: of a photon, ≥ 0.
+    pub fn starts(
+        &self,
+        count: u32,
+        worth: impl Fn(&Photon) -> f32 + Sync,
+        cancel: &AtomicBool,
+        stats: &mut Stats,
+    ) -> Vec<Found> {
+        let chunk = |chunk: u32| {
+            let begin = chunk * CHUNK;
+            let (mut kept, mut stats) = (Kept::default(), Stats::default());
+            let numbers = begin..count.min(begin.saturating_add(CHUNK));
+            let numbers = numbers.take_while(|_| !cancel.load(Ordering::Relaxed));
+            let found = numbers.filter_map(|number| {
+                kept.photons.clear();
+                let numbers = self.trace_one(number, &mut kept, &mut stats);
+                let worth = kept.photons.iter().map(&worth).sum();
+                (worth > 0.0).then_some(Found { numbers, worth })
+            });
+            (found.collect(), stats)
+        };
+        let chunks: Vec<(Vec<Found>, Stats)> =
+            (0..count.div_ceil(CHUNK)).into_par_iter().map(chunk).collect();
+        chunks.iter().for_each(|(_, counts)| stats.add(counts));
+        chunks.into_iter().flat_map(|(found, _)| found).collect()
     }
 
     fn trace_all(&self, count: u32, cancel: &AtomicBool, stats: &mut Stats) -> Kept {
@@ -146,13 +180,21 @@ impl PhotonTracer<'_> {
             if cancel.load(Ordering::Relaxed) {
                 break;
             }
-            stats.photons += 1;
-            let mut sampler = Sampler::new(SamplerKind::Sobol, self.seed, (self.map.tag(), u32::MAX), number);
-            if let Some(start) = self.emitter.emit(&mut sampler) {
-                Flight::new(self, start).run(&mut sampler, &mut kept, &mut stats);
-            }
+            self.trace_one(number, &mut kept, &mut stats);
         }
         (kept, stats)
+    }
+
+    /// Returns what the photon has started from.
+    fn trace_one(&self, number: u32, kept: &mut Kept, stats: &mut Stats) -> [f32; START_NUMBERS] {
+        stats.photons += 1;
+        let mut sampler = Sampler::new(SamplerKind::Sobol, self.seed, (self.map.tag(), u32::MAX), number);
+        let (numbers, density) = self.guide.warp(start_numbers(&mut sampler));
+        if let Some(start) = self.emitter.emit_from(numbers) {
+            let start = PhotonStart { flux: start.flux * (1.0 / density), ..start };
+            Flight::new(self, start).run(&mut sampler, kept, stats);
+        }
+        numbers
     }
 }
 

@@ -6,6 +6,7 @@ use hyaline_scene::{Collection, ProjectionMaps};
 use hyaline_transport::Stats;
 use hyaline_transport::photon::emission::PhotonEmitter;
 use hyaline_transport::photon::gather::{Estimate, PhotonMap};
+use hyaline_transport::photon::guide::Guide;
 use hyaline_transport::photon::kernel::Kernel;
 use hyaline_transport::photon::record::Photon;
 use hyaline_transport::photon::trace::{MapKind, PhotonTracer};
@@ -17,7 +18,8 @@ use std::sync::atomic::AtomicBool;
 pub fn trace(world: &World, map: MapKind, count: u32) -> Vec<Photon> {
     let projection = if map == MapKind::Caustic { ProjectionMaps::Cells } else { ProjectionMaps::None };
     let emitter = PhotonEmitter::new(world, projection, 64);
-    let tracer = PhotonTracer { world, emitter: &emitter, map, seed: 1, max_bounces: 1000 };
+    let guide = Guide::default();
+    let tracer = PhotonTracer { world, emitter: &emitter, map, seed: 1, max_bounces: 1000, guide };
     let mut stats = Stats::default();
     let photons = tracer.trace(count, &AtomicBool::new(false), &mut stats);
     assert!(stats.never_entered.is_empty(), "left what was never entered: {:?}", stats.never_entered);

@@ -6,6 +6,7 @@
 //! surface (power heuristic), as all that follows is the same for both.
 
 use super::aim::Cones;
+use super::onward::Onward;
 use super::{Draws, Eye, Path, Seen};
 use crate::in_volume;
 use crate::walk::{Event, Flown, Vertex, VolumeVertex};
@@ -18,14 +19,14 @@ impl Eye<'_> {
     pub(super) fn aimed_light(
         &self,
         path: &Path,
-        vertex: &Vertex,
-        wo: Vec3,
+        (vertex, wo): (&Vertex, Vec3),
         cones: &Cones,
+        onward: &Onward,
         draws: &mut Draws<'_>,
     ) -> Spectrum {
         let Some(wi) = aimed_direction(cones, draws) else { return Spectrum::ZERO };
-        let (f, drawn) = vertex.bsdf.eval_with_pdf(wo, wi, Transport::Radiance);
-        let pdf = cones.pdf(wi);
+        let (f, of_finish) = vertex.bsdf.eval_with_pdf(wo, wi, Transport::Radiance);
+        let (drawn, pdf) = (onward.pdf(of_finish, wi), cones.pdf(wi));
         let weight = f / pdf;
         if !weight.is_finite() || weight.is_zero() {
             return Spectrum::ZERO;

@@ -5,7 +5,7 @@
 //! 2. If the surface shines, add its light, weighed against the other ways to find it.
 //! 3. If the vertex is not singular, gather the photons about it, sample a light, and add what reaches the vertex. Without
 //!    photons, ask for light over polished surfaces, too (`aimed`).
-//! 4. Go on in a direction drawn from the BSDF or phase function. Singular crossings are free: there is no limit on them.
+//! 4. Go on in a direction drawn from the BSDF or phase function, or toward bright caustics (`onward`). Singular crossings are free: there is no limit on them.
 //!    At the first polished surfaces more than one way is gone (`split`).
 //! 5. Weak paths end by roulette on their throughput without the n² factor, so none dies for being inside glass.
 
@@ -16,6 +16,7 @@ pub(super) mod asking;
 mod glints;
 mod hit;
 pub(super) mod merges;
+mod onward;
 pub(super) mod place;
 pub(super) mod radius;
 pub(super) mod reach;

@@ -1,6 +1,7 @@
 //! What a path does at a surface.
 
 use super::merges::{Beyond, Passed, Place};
+use super::onward::{Drawn, Onward};
 use super::radius::INDIRECT;
 use super::reach::Outlook;
 use super::weight::{self, Side};
@@ -23,17 +24,20 @@ impl Eye<'_> {
         let is_delta = vertex.bsdf.is_delta();
         let is_wide = !is_specular(&vertex.bsdf);
         let aim = self.aim.filter(|_| is_wide).and_then(|aim| aim.at_surface(vertex, wo));
+        let beams = self.aim.filter(|_| is_wide).and_then(|aim| aim.onward(vertex, wo));
+        let onward = Onward::new(beams);
         if !is_delta && self.may_bounce(path) {
             if let Some(photons) = &self.photons {
                 path.seen.light += self.gather(path, vertex, wo, photons, draws);
             }
-            path.seen.light += path.throughput * self.sampled_light(path, vertex, wo, draws);
+            path.seen.light += path.throughput * self.sampled_light(path, (vertex, wo), &onward, draws);
             if let Some(cones) = &aim {
-                path.seen.light += self.aimed_light(path, vertex, wo, cones, draws);
+                path.seen.light += self.aimed_light(path, (vertex, wo), cones, &onward, draws);
             }
         }
         let (u_lobe, u) = (draws.sampler.next_1d(), draws.sampler.next_2d());
-        let Some(scattered) = vertex.bsdf.sample(wo, u_lobe, u, Transport::Radiance) else { return false };
+        let Some(Drawn { scattered, thinned }) = onward.sample(vertex, wo, u_lobe, u) else { return false };
+        path.index_scale *= thinned;
         self.turn(path, vertex, &scattered);
         if !is_delta {
             // What a coat mirrors is asked for neither here nor from the vertex before.
@@ -133,26 +137,33 @@ impl Eye<'_> {
     }
 
     /// Light of the lights that are asked, by a shadow ray to each.
-    fn sampled_light(&self, path: &Path, vertex: &Vertex, wo: Vec3, draws: &mut Draws<'_>) -> Spectrum {
+    fn sampled_light(
+        &self,
+        path: &Path,
+        at: (&Vertex, Vec3),
+        onward: &Onward,
+        draws: &mut Draws<'_>,
+    ) -> Spectrum {
         let asked = self.asked(path.bounces, draws);
         asked
             .into_iter()
-            .fold(Spectrum::ZERO, |sum, choice| sum + self.light_of(choice, path, vertex, wo, draws))
+            .fold(Spectrum::ZERO, |sum, choice| sum + self.light_of(choice, path, at, onward, draws))
     }
 
     fn light_of(
         &self,
         choice: LightChoice,
         path: &Path,
-        vertex: &Vertex,
-        wo: Vec3,
+        (vertex, wo): (&Vertex, Vec3),
+        onward: &Onward,
         draws: &mut Draws<'_>,
     ) -> Spectrum {
         let u = draws.sampler.next_2d();
         let Some(sample) = self.world.lights.get(choice.index).sample_direct(vertex.hit.p, u) else {
             return Spectrum::ZERO;
         };
-        let (f, pdf) = vertex.bsdf.eval_with_pdf(wo, sample.wi, Transport::Radiance);
+        let (f, of_finish) = vertex.bsdf.eval_with_pdf(wo, sample.wi, Transport::Radiance);
+        let pdf = onward.pdf(of_finish, sample.wi);
         let contribution = f * sample.radiance;
         if contribution.is_zero() {
             return contribution;

@@ -31,6 +31,8 @@ const PIXELS: u32 = 4096;
 /// Passes that are learned from; more where few photons find anything.
 const LESSONS: u32 = 2;
 const MOST_LESSONS: u32 = 8;
+/// Gain of density from which on photons are guided.
+const LEAST_GAIN: f64 = 8.0;
 /// Photons that have found something, with which learning may end.
 const ENOUGH: usize = 64;
 /// What a pixel counts as at least, over the mean of the picture: errors in the dark are seen less.
@@ -130,7 +132,7 @@ impl Pilot<'_> {
             [&mut senders.aimed, &mut senders.broad].into_iter().zip(worth).zip(known)
         {
             known.extend(self.lessons(sender, pass, &worth));
-            sender.guide = Guide::learn(known);
+            sender.guide = Guide::learn(known, LEAST_GAIN);
         }
     }
 

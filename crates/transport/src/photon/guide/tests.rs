@@ -3,6 +3,8 @@
 use super::*;
 use hyaline_testkit::Random;
 
+const LEAST_GAIN: f64 = 8.0;
+
 fn numbers(random: &mut Random) -> [f32; START_NUMBERS] {
     std::array::from_fn(|_| random.uniform_f32())
 }
@@ -17,7 +19,7 @@ fn corner() -> Guide {
             Found { numbers, worth: if is_there { 1.0 + numbers[0] } else { 0.0 } }
         })
         .collect();
-    Guide::learn(&found)
+    Guide::learn(&found, LEAST_GAIN)
 }
 
 #[test]
@@ -71,8 +73,8 @@ fn nothing_is_left_out() {
 fn nothing_found_is_nothing_known() {
     let mut random = Random::from_seed(9);
     let none = [Found { numbers: numbers(&mut random), worth: 0.0 }; 100];
-    assert_eq!(Guide::learn(&none), Guide::default());
-    assert_eq!(Guide::learn(&[]), Guide::default());
+    assert_eq!(Guide::learn(&none, LEAST_GAIN), Guide::default());
+    assert_eq!(Guide::learn(&[], LEAST_GAIN), Guide::default());
     let u = numbers(&mut random);
     assert_eq!(Guide::default().warp(u), (u, 1.0));
 }
@@ -84,5 +86,5 @@ fn light_that_is_found_nearly_everywhere_needs_no_guide() {
         .map(|_| numbers(&mut random))
         .map(|numbers| Found { numbers, worth: 1.0 + numbers[2] })
         .collect();
-    assert_eq!(Guide::learn(&found), Guide::default());
+    assert_eq!(Guide::learn(&found, LEAST_GAIN), Guide::default());
 }

@@ -59,6 +59,16 @@ impl Cones {
         Some(Frame::from_normal(*axis).to_world(warp::sample_cone(u, *versine)).normalize())
     }
 
+    /// The same cones, drawn from as often as the chance says, 0…1.
+    pub(super) fn with_chance(self, chance: f32) -> Self {
+        Self { chance, ..self }
+    }
+
+    /// Chance of drawing a direction at all, 0…1.
+    pub(in super::super) fn chance(&self) -> f32 {
+        self.chance
+    }
+
     /// Density of a direction, sr⁻¹: its integral is the chance.
     pub(in super::super) fn pdf(&self, wi: Vec3) -> f32 {
         let within = |cone: &&Cone| 0.5 * (wi - cone.axis).length_squared() <= cone.versine;

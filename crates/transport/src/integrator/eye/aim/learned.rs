@@ -1,9 +1,8 @@
-//! Where the light of caustics comes from, place by place, as photons have found it.
+//! Where light comes from, place by place, as photons have found it.
 //!
-//! Photons that have come over polished surfaces are traced once. Those that landed close together are a cell. They left
-//! the last polished surface at some points: on the near arm of a ring, on the rim of a glass. They are divided by these
-//! points, and the beams through what belongs together are what wide surfaces in the cell aim along, each as often as its
-//! photons are bright.
+//! Photons that landed close together are a cell. They left the last surface at some points: on the near arm of a ring, on the
+//! rim of a glass. They are divided by these points, and the beams through what belongs together are what wide surfaces in
+//! the cell aim along, each as often as its photons are bright.
 //!
 //! All this can only help or waste directions: whatever photons say, a direction counts by its density.
 //!
@@ -11,46 +10,20 @@
 //! each look-up makes a histogram of its nearest photons.
 
 use super::beam::{Beam, Incidence, Moments};
-use crate::RenderSettings;
-use crate::integrator::merging::projection_cells;
-use crate::photon::{MapKind, PhotonEmitter, PhotonTracer};
-use crate::stats::Stats;
-use hyaline_math::{Bounds, Ray, Vec3};
-use hyaline_scene::ProjectionMaps;
-use hyaline_world::{World, mask};
+use super::lesson::Arrival;
+use hyaline_math::{Bounds, Vec3};
 use rayon::prelude::*;
-use std::sync::atomic::AtomicBool;
 
-/// Photons that are sent out for each pixel.
-const PHOTONS_PER_PIXEL: u32 = 4;
-/// Photons that are sent out, at least and at most.
-const PHOTONS: [u32; 2] = [1 << 15, 1 << 19];
 /// Photons of a cell, at most.
 const CELL: usize = 192;
-/// Things to aim at from a cell, at most.
-const MOST_SOURCES: usize = 12;
 /// Photons of a source, at least: fewer do not show how wide it is.
 const FEWEST: usize = 6;
 /// How far beyond its photons a cell reaches, over its diagonal.
 const MARGIN: f32 = 0.25;
 /// Cuts of a cluster that are tried along an axis, about.
 const CUTS: usize = 32;
-/// How far a photon is moved back before the way it came is looked for, over its coordinates.
-const STEP: f32 = 1e-5;
-/// Chance of asking where hardly any photons have landed.
-pub(super) const LEAST_CHANCE: f32 = 0.1;
-/// Chance of asking over the irradiance of the cell, as a multiple of that of all cells together.
-const EAGERNESS: f32 = 2.0;
-
-/// A photon's last straight way.
-#[derive(Clone, Copy, Debug)]
-struct Arrival {
-    landed: Vec3,
-    /// Where it left the last polished surface.
-    left: Vec3,
-    /// W.
-    power: f32,
-}
+/// Photons of a cell where other light is measured.
+const PROBES: usize = 8;
 
 /// Light that comes to a cell from about one place.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -79,66 +52,49 @@ enum Node {
     Cell(usize),
 }
 
+/// Photons that landed close together.
 #[derive(Clone, Debug)]
-struct Cell {
+pub(super) struct Cell {
     /// Of its photons, and a little about them.
     reach: Bounds,
-    sources: Vec<Source>,
-    /// W.
-    power: f32,
-    /// Of the surface it is on, about; scene units squared.
-    area: f32,
-    /// Of asking for the light of its sources at all, 0…1.
-    chance: f32,
+    pub(super) sources: Vec<Source>,
+    /// By its photons, about; W per square scene unit.
+    pub(super) irradiance: f32,
+    /// That light over the sum of it and of what else is asked for, 0…1.
+    pub(super) part: f32,
 }
 
 impl Learned {
-    /// Traces photons, the same for any number of threads.
+    /// What photons show.
+    ///
+    /// - `most_sources`: of a cell, at most.
+    /// - `other`: irradiance where a photon has landed by what else is asked for, W per square scene unit: a sample of the given
+    ///   number.
     pub(super) fn new(
-        world: &World,
-        pixels: u32,
-        settings: &RenderSettings,
-        cancel: &AtomicBool,
-        stats: &mut Stats,
+        mut arrivals: Vec<Arrival>,
+        most_sources: usize,
+        other: impl Fn(&Arrival, usize) -> f32 + Sync,
     ) -> Self {
-        let emitter = PhotonEmitter::new(world, ProjectionMaps::Cells, projection_cells(pixels));
-        if emitter.fraction() == 0.0 || !world.lights.any_can_be_met() {
-            return Self::default();
-        }
-        let max_bounces = settings.max_depth.map_or(u32::MAX, |limit| limit.saturating_sub(1));
-        let (map, seed) = (MapKind::Caustic, settings.seed);
-        let tracer = PhotonTracer { world, emitter: &emitter, map, seed, max_bounces };
-        let count = pixels.saturating_mul(PHOTONS_PER_PIXEL);
-        let photons = tracer.trace(count.clamp(PHOTONS[0], PHOTONS[1]), cancel, stats);
-        stats.rays += photons.len() as u64;
-        let arrivals = photons.par_iter().filter_map(|photon| {
-            let back = -photon.direction;
-            let ray = Ray::new(photon.p + back * (STEP * photon.p.abs().max_element()), back);
-            let candidate = world.geometry.closest(&ray, mask::PATH)?;
-            let left = world.geometry.surface(&ray, &candidate).p;
-            Some(Arrival { landed: photon.p, left, power: photon.flux.mean(world.lanes) })
-        });
-        Self::from_arrivals(arrivals.collect())
-    }
-
-    fn from_arrivals(mut arrivals: Vec<Arrival>) -> Self {
         let (mut nodes, mut parts) = (Vec::new(), Vec::new());
         if arrivals.len() >= FEWEST {
             divide(&mut arrivals, &mut nodes, &mut parts);
         }
-        let mut cells: Vec<Cell> = parts.into_par_iter().map(Cell::new).collect();
-        let [power, area] =
-            [|cell: &Cell| cell.power, |cell: &Cell| cell.area].map(|f| cells.iter().map(f).sum::<f32>());
-        for cell in &mut cells {
-            let brightness = cell.power * area / (cell.area * power);
-            // Not a number where all photons are in one place.
-            cell.chance = if brightness > 0.0 {
-                (EAGERNESS * brightness).clamp(LEAST_CHANCE, 1.0)
-            } else {
-                LEAST_CHANCE
-            };
+        let cell = |part: &mut [Arrival]| Cell::new(part, most_sources, &other);
+        Self { nodes, cells: parts.into_par_iter().map(cell).collect() }
+    }
+
+    /// Keeps the sources that make noise where they are found by chance alone.
+    ///
+    /// - `least`: variance that a source makes, over the square of the light of the place.
+    pub(super) fn noisy(mut self, least: f32) -> Self {
+        for Cell { sources, part, .. } in &mut self.cells {
+            sources.retain(|Source { beam, share }| {
+                // Twice the versine is the chance of a matte surface, on the mean of all ways it may be turned.
+                let light = *part * share;
+                light * light > least * 2.0 * beam.core
+            });
         }
-        Self { nodes, cells }
+        self
     }
 
     /// Whether no photons have landed anywhere.
@@ -146,18 +102,16 @@ impl Learned {
         self.cells.is_empty()
     }
 
-    /// What to aim at from a place, and the chance with which to ask for it; nothing where no photons landed about it.
-    pub(super) fn at(&self, p: Vec3) -> (&[Source], f32) {
+    /// What to aim at from a place; `None` where no photons landed about it.
+    pub(super) fn at(&self, p: Vec3) -> Option<&Cell> {
         let mut node = 0;
         loop {
-            match self.nodes.get(node) {
-                Some(&Node::Split { axis, at, high }) => node = if p[axis] < at { node + 1 } else { high },
-                Some(&Node::Cell(index)) => {
-                    let Cell { reach, sources, chance, .. } = &self.cells[index];
-                    let is_near = reach.overlaps(&Bounds { min: p, max: p });
-                    return (if is_near { sources } else { &[] }, *chance);
+            match *self.nodes.get(node)? {
+                Node::Split { axis, at, high } => node = if p[axis] < at { node + 1 } else { high },
+                Node::Cell(index) => {
+                    let cell = &self.cells[index];
+                    return cell.reach.overlaps(&Bounds { min: p, max: p }).then_some(cell);
                 }
-                None => return (&[], 0.0),
             }
         }
     }
@@ -191,11 +145,19 @@ fn divide<'a>(arrivals: &'a mut [Arrival], nodes: &mut Vec<Node>, parts: &mut Ve
 }
 
 impl Cell {
-    fn new(arrivals: &mut [Arrival]) -> Self {
+    fn new(arrivals: &mut [Arrival], most_sources: usize, other: impl Fn(&Arrival, usize) -> f32) -> Self {
         let bounds = Bounds::from_points(arrivals.iter().map(|arrival| arrival.landed));
         let reach = bounds.expanded(MARGIN * bounds.size().length());
         let power: f32 = arrivals.iter().map(|arrival| arrival.power).sum();
-        let sources = clusters(arrivals)
+        let [x, y, z] = bounds.size().to_array();
+        let irradiance = power / (x * y).max(y * z).max(z * x);
+        let step = arrivals.len().div_ceil(PROBES);
+        let probes = arrivals.iter().step_by(step).enumerate();
+        let others =
+            probes.map(|(i, arrival)| other(arrival, i)).sum::<f32>() / arrivals.len().div_ceil(step) as f32;
+        // Photons in one place are all the light; where there is none of any kind, that is not a number.
+        let part = (1.0 / (1.0 + others / irradiance)).max(0.0);
+        let sources = clusters(arrivals, most_sources)
             .into_iter()
             .map(|cluster| Source {
                 beam: Beam::through(&cluster.iter().map(Arrival::ray).collect::<Vec<_>>()),
@@ -203,17 +165,15 @@ impl Cell {
             })
             .filter(|source| source.share > 0.0)
             .collect();
-        let [x, y, z] = bounds.size().to_array();
-        let area = (x * y).max(y * z).max(z * x);
-        Self { reach, sources, power, area, chance: 1.0 }
+        Self { reach, sources, irradiance, part }
     }
 }
 
 /// Divides photons by where they came from, so that beams through them are narrow.
-fn clusters(arrivals: &mut [Arrival]) -> Vec<&mut [Arrival]> {
+fn clusters(arrivals: &mut [Arrival], most: usize) -> Vec<&mut [Arrival]> {
     let first = best_cut(arrivals);
     let mut clusters = vec![(arrivals, first)];
-    while clusters.len() < MOST_SOURCES {
+    while clusters.len() < most {
         let gains = clusters.iter().enumerate().filter_map(|(i, (_, cut))| Some((i, cut.as_ref()?.gain)));
         let Some((i, _)) = gains.max_by(|a, b| a.1.total_cmp(&b.1)) else { break };
         let (cluster, Some(Cut { axis, at, .. })) = clusters.swap_remove(i) else { break };
@@ -272,6 +232,12 @@ mod tests {
     use super::*;
     use hyaline_testkit::Random;
 
+    const MOST_SOURCES: usize = 12;
+
+    fn dark(_: &Arrival, _: usize) -> f32 {
+        0.0
+    }
+
     /// Photons on a floor and on a wall, from two lines over them.
     fn arrivals(count: usize) -> Vec<Arrival> {
         let mut random = Random::from_seed(5);
@@ -288,10 +254,10 @@ mod tests {
     #[test]
     fn every_photon_is_aimed_at_from_where_it_landed() {
         let arrivals = arrivals(20_000);
-        let learned = Learned::from_arrivals(arrivals.clone());
+        let learned = Learned::new(arrivals.clone(), MOST_SOURCES, dark);
         assert!(learned.cells.len() > 20_000 / CELL);
         for Arrival { landed, left, .. } in arrivals {
-            let (sources, _) = learned.at(landed);
+            let sources = &learned.at(landed).expect("a photon landed here").sources;
             let u = (left - landed).normalize();
             let holds =
                 |source: &Source| 0.5 * (source.beam.axis(landed) - u).length_squared() <= source.beam.whole;
@@ -301,7 +267,7 @@ mod tests {
 
     #[test]
     fn sources_are_small_and_share_all_of_the_power() {
-        let learned = Learned::from_arrivals(arrivals(20_000));
+        let learned = Learned::new(arrivals(20_000), MOST_SOURCES, dark);
         for cell in &learned.cells {
             let total: f32 = cell.sources.iter().map(|source| source.share).sum();
             assert!((total - 1.0).abs() < 1e-4 && cell.sources.len() <= MOST_SOURCES);
@@ -314,11 +280,11 @@ mod tests {
 
     #[test]
     fn places_without_photons_and_equal_photons_are_no_trouble() {
-        assert!(Learned::default().at(Vec3::ZERO).0.is_empty());
-        assert!(Learned::from_arrivals(arrivals(20_000)).at(Vec3::splat(9.0)).0.is_empty());
+        assert!(Learned::default().at(Vec3::ZERO).is_none());
+        assert!(Learned::new(arrivals(20_000), MOST_SOURCES, dark).at(Vec3::splat(9.0)).is_none());
         let same = Arrival { landed: Vec3::ONE, left: Vec3::ZERO, power: 1.0 };
-        let learned = Learned::from_arrivals(vec![same; 1000]);
-        assert_eq!(learned.at(Vec3::ONE).0.len(), 1);
-        assert!(Learned::from_arrivals(vec![same; FEWEST - 1]).at(Vec3::ONE).0.is_empty());
+        let learned = Learned::new(vec![same; 1000], MOST_SOURCES, dark);
+        assert_eq!(learned.at(Vec3::ONE).map(|cell| cell.sources.len()), Some(1));
+        assert!(Learned::new(vec![same; FEWEST - 1], MOST_SOURCES, dark).at(Vec3::ONE).is_none());
     }
 }

@@ -6,11 +6,15 @@
 //! - along the beams that photons have come in to just about here (`learned`, `beam`);
 //! - where none have, and in media: about each polished object that looks small, and about each lamp that one may stand
 //!   before; those are nested, for glass may bend the way a little or much.
+//!
+//! What is bright with caustics lights other surfaces in turn. It is mostly small, and rarely found by chance: where photons
+//! have shown it, paths go there more often (`onward`).
 
 mod ball;
 mod beam;
 mod cones;
 mod learned;
+mod lesson;
 
 pub(super) use cones::Cones;
 
@@ -20,10 +24,23 @@ use crate::walk::Vertex;
 use ball::{Ball, MOST_OBJECTS, View, ball_about, merged, versine_of};
 use hyaline_math::Vec3;
 use hyaline_world::World;
-use learned::{LEAST_CHANCE, Learned};
+use learned::{Learned, Source};
+use lesson::{Arrival, Arrivals, arrivals, irradiance_of_lamps};
 use smallvec::SmallVec;
 use std::sync::atomic::AtomicBool;
 
+/// Sources of caustic light that are told apart at a place, at most.
+const MOST_SOURCES: usize = 12;
+/// Sources of light that caustics throw on a place, at most: these are seen by chance, too.
+const MOST_THROWN: usize = 4;
+/// Variance that such a source makes where chance finds it, over the square of the light of the place, at least.
+const LEAST_NOISE: f32 = 0.02;
+/// Share of the directions in which paths go on along such beams, where there are no others.
+const ALONG: f32 = 0.2;
+/// Chance of asking for caustic light over the part that it is of the light of the place.
+const EAGERNESS: f32 = 12.0;
+/// That chance at least, and where no photons are known to have landed.
+const LEAST_CHANCE: f32 = 0.1;
 /// Share of polished objects as a whole, over that of all beams that photons have shown.
 const ANYWHERE: f32 = 0.05;
 /// Share of the core of a beam.
@@ -44,6 +61,8 @@ pub(in crate::integrator) struct Aim {
     /// Lamps and the chance of each.
     lamps: Vec<(Ball, f32)>,
     learned: Learned,
+    /// Of the light that caustics throw on other surfaces.
+    thrown: Learned,
     /// Chance of asking where no photons are known to have landed.
     chance: f32,
 }
@@ -62,7 +81,7 @@ impl Aim {
             .collect();
         lamps.sort_by(|a, b| b.1.total_cmp(&a.1));
         lamps.truncate(MOST_LAMPS);
-        Self { objects, lamps, learned: Learned::default(), chance: 1.0 }
+        Self { objects, lamps, learned: Learned::default(), thrown: Learned::default(), chance: 1.0 }
     }
 
     /// The same with what photons show, which are traced for it, unless the settings say not to.
@@ -79,34 +98,31 @@ impl Aim {
         if !settings.techniques.guiding {
             return aim;
         }
-        let learned = Learned::new(world, pixels, settings, cancel, stats);
-        Self { chance: if learned.is_empty() { 1.0 } else { LEAST_CHANCE }, learned, ..aim }
+        let Arrivals { caustic, thrown } = arrivals(world, pixels, settings, cancel, stats);
+        let lamps = |arrival: &Arrival, number| irradiance_of_lamps(world, arrival, number);
+        let learned = Learned::new(caustic, MOST_SOURCES, lamps);
+        let direct = |arrival: &Arrival, number| {
+            let caustic = learned.at(arrival.landed).map_or(0.0, |cell| cell.irradiance);
+            caustic + lamps(arrival, number)
+        };
+        let thrown = Learned::new(thrown, MOST_THROWN, direct).noisy(LEAST_NOISE);
+        Self { chance: if learned.is_empty() { 1.0 } else { LEAST_CHANCE }, learned, thrown, ..aim }
     }
 
     /// The cones that a surface tries; `None` where aim would not help.
     ///
     /// - `wo`: where the path came from, unit.
     pub(super) fn at_surface(&self, vertex: &Vertex, wo: Vec3) -> Option<Cones> {
-        if !vertex.bsdf.is_opaque() {
-            return None;
-        }
-        let n = if wo.dot(vertex.hit.ng) < 0.0 { -vertex.hit.ng } else { vertex.hit.ng };
-        let p = vertex.hit.p;
+        let (p, n) = opaque_side(vertex, wo)?;
         self.learned_cones(p, n).or_else(|| self.cones(p, self.chance, |view| view.rises_over(n)))
     }
 
     /// Toward where photons have come from, and now and then anywhere on polished objects: few photons don't show
     /// all ways.
     fn learned_cones(&self, p: Vec3, n: Vec3) -> Option<Cones> {
-        let (sources, chance) = self.learned.at(p);
-        let mut cones = Cones::new(chance);
-        for source in sources {
-            let axis = source.beam.axis(p);
-            if source.beam.rises_over(axis, n) {
-                cones.push(axis, source.beam.core, source.share * CORE);
-                cones.push(axis, source.beam.whole, source.share * (1.0 - CORE));
-            }
-        }
+        let cell = self.learned.at(p)?;
+        let mut cones = Cones::new((EAGERNESS * cell.part).clamp(LEAST_CHANCE, 1.0));
+        cones.push_beams(&cell.sources, p, n);
         if cones.total == 0.0 {
             return None;
         }
@@ -115,6 +131,18 @@ impl Aim {
             cones.push(view.axis, view.versine(), ANYWHERE / self.objects.len() as f32);
         }
         Some(cones)
+    }
+
+    /// The cones along which a path goes on now and then, toward what is bright with caustics; their chance says how often.
+    ///
+    /// - `wo`: where the path came from, unit.
+    pub(super) fn onward(&self, vertex: &Vertex, wo: Vec3) -> Option<Cones> {
+        let (p, n) = opaque_side(vertex, wo)?;
+        let mut cones = Cones::new(1.0);
+        cones.push_beams(&self.thrown.at(p)?.sources, p, n);
+        // What is left of the light comes from anywhere.
+        let chance = ALONG * cones.total;
+        (chance > 0.0).then(|| cones.with_chance(chance))
     }
 
     /// The cones that a particle of a medium tries.
@@ -143,5 +171,24 @@ impl Aim {
             }
         }
         (cones.total > 0.0).then_some(cones)
+    }
+}
+
+/// Where an opaque surface is, and its unit normal on the side that the path came from.
+fn opaque_side(vertex: &Vertex, wo: Vec3) -> Option<(Vec3, Vec3)> {
+    let n = if wo.dot(vertex.hit.ng) < 0.0 { -vertex.hit.ng } else { vertex.hit.ng };
+    vertex.bsdf.is_opaque().then_some((vertex.hit.p, n))
+}
+
+impl Cones {
+    /// Adds the beams of sources that reach the surface of the normal `n` at `p`, each by its share.
+    fn push_beams(&mut self, sources: &[Source], p: Vec3, n: Vec3) {
+        for Source { beam, share } in sources {
+            let axis = beam.axis(p);
+            if beam.rises_over(axis, n) {
+                self.push(axis, beam.core, share * CORE);
+                self.push(axis, beam.whole, share * (1.0 - CORE));
+            }
+        }
     }
 }

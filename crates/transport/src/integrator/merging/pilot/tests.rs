@@ -124,7 +124,7 @@ fn a_senseless_guide_keeps_the_mean() {
             numbers: std::array::from_fn(|_| random.uniform_f32().powi(3)),
             worth: random.uniform_f32().powi(4),
         };
-        Guide::learn(&(0..5000).map(|_| found()).collect::<Vec<_>>())
+        Guide::learn(&(0..5000).map(|_| found()).collect::<Vec<_>>(), LEAST_GAIN)
     };
     let aimed = Senders::new(&world, &view(), Techniques::default());
     let mut misled = Senders::new(&world, &view(), Techniques::default());
