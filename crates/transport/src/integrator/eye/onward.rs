@@ -8,6 +8,10 @@ use crate::walk::Vertex;
 use hyaline_math::{Vec2, Vec3};
 use hyaline_scattering::{BsdfSample, Transport};
 
+/// What is drawn more densely than this counts as if it were not: where the finish draws nothing at all, what a path is worth would
+/// be no number.
+const THINNEST: f32 = 1e-6;
+
 /// How a path draws the direction in which it goes on.
 pub(super) struct Onward {
     /// Beams beside the finish; their chance is that of being drawn from.
@@ -54,7 +58,7 @@ impl Onward {
                 return None;
             }
             let scattered = BsdfSample { wi, weight, pdf, is_delta: false, transmits: false, eta_scale: 1.0 };
-            return Some(Drawn { scattered, thinned: of_finish / pdf });
+            return Some(Drawn { scattered, thinned: (of_finish / pdf).max(THINNEST) });
         }
         let chance = 1.0 - beams.chance();
         let scattered = bsdf.sample(wo, (u_lobe - beams.chance()) / chance, u, Transport::Radiance)?;
