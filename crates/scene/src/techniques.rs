@@ -21,7 +21,8 @@ pub struct Techniques {
     pub glints: bool,
     /// Photons are aimed at what is polished, by projection maps.
     pub projection: bool,
-    /// Photons are sent where light has been found before; `path` asks for light where photons have come from.
+    /// Photons are sent where light has been found before; `path` asks for light where photons have come from, and goes on
+    /// toward what they have lit.
     pub guiding: bool,
     /// Photons that are aimed at nothing, where they pay.
     pub broad: bool,

@@ -6,6 +6,7 @@ use hyaline_math::{DVec3, Transform, Vec3};
 use hyaline_sampling::{Sampler, SamplerKind};
 use hyaline_scene::*;
 use hyaline_transport::photon::PhotonEmitter;
+use hyaline_transport::photon::emission::start_numbers;
 use hyaline_world::World;
 use scene_kit::{SceneKit, cuboid, floor, rectangle, sphere, tumbler};
 
@@ -31,7 +32,7 @@ fn start_media(kit: &SceneKit) -> Vec<&str> {
     let mut found = Vec::new();
     for number in 0..60 {
         let mut sampler = Sampler::new(SamplerKind::Sobol, 1, (0, 0), number);
-        let medium = emitter.emit(&mut sampler).unwrap().set.active().index();
+        let medium = emitter.emit_from(start_numbers(&mut sampler)).unwrap().set.active().index();
         if !found.contains(&medium) {
             found.push(medium);
         }
@@ -111,7 +112,7 @@ fn the_sides_of_a_glowing_body_shine_into_what_is_on_them() {
     let emitter = PhotonEmitter::new(&world, ProjectionMaps::None, 8);
     for number in 0..100 {
         let mut sampler = Sampler::new(SamplerKind::Sobol, 1, (0, 0), number);
-        let photon = emitter.emit(&mut sampler).unwrap();
+        let photon = emitter.emit_from(start_numbers(&mut sampler)).unwrap();
         let goes_in = photon.ray.origin.dot(photon.ray.direction) < 0.0;
         let medium = &kit.description.media[photon.set.active().index() - 1].name;
         assert_eq!(medium, if goes_in { "fog" } else { "water" });
@@ -167,7 +168,7 @@ fn photons_of_a_lamp_start_off_its_surface() {
     let emitter = PhotonEmitter::new(&world, ProjectionMaps::None, 8);
     for number in 0..2000 {
         let mut sampler = Sampler::new(SamplerKind::Sobol, 1, (0, 0), number);
-        let photon = emitter.emit(&mut sampler).unwrap();
+        let photon = emitter.emit_from(start_numbers(&mut sampler)).unwrap();
         assert!(world.geometry.closest(&photon.ray, u8::MAX).is_none(), "{photon:?}");
         assert!((photon.ray.origin - Vec3::new(1000.0, 30.0, -7.0)).length() < 0.501);
     }

@@ -7,6 +7,7 @@ use hyaline_math::{DVec3, Transform, Vec3};
 use hyaline_sampling::{Sampler, SamplerKind};
 use hyaline_scene::*;
 use hyaline_testkit::{Moments, chi_square_square, integrate_rectangle, sidak, welch_t, z_test};
+use hyaline_transport::photon::emission::start_numbers;
 use hyaline_transport::photon::{PhotonEmitter, PhotonStart};
 use hyaline_world::World;
 use scene_kit::{SceneKit, ball_mesh, floor, rectangle, sphere};
@@ -27,7 +28,7 @@ fn stage() -> SceneKit {
 }
 
 fn start(emitter: &PhotonEmitter, number: u32) -> Option<PhotonStart> {
-    emitter.emit(&mut Sampler::new(SamplerKind::Independent, 7, (number, 1), 0))
+    emitter.emit_from(start_numbers(&mut Sampler::new(SamplerKind::Independent, 7, (number, 1), 0)))
 }
 
 fn hits_ball(photon: &PhotonStart, center: DVec3, radius: f64) -> bool {

@@ -19,7 +19,7 @@ use hyaline_world::light::{Light, LightSampler};
 pub struct PhotonStart {
     /// From the light, off its surface if it has one.
     pub ray: Ray,
-    /// W; its mean over all calls of `emit`, those that give nothing counted as 0, is the power that is aimed at.
+    /// W; its mean over all calls of `emit_from`, those that give nothing counted as 0, is the power that is aimed at.
     pub flux: Spectrum,
     /// Index of the light.
     pub light: u32,
@@ -71,14 +71,8 @@ impl<'w> PhotonEmitter<'w> {
         self.projections.iter().map(Projection::memory).sum()
     }
 
-    /// One photon; `None` where this choice has no light, which counts as a photon without flux.
-    ///
-    /// - `sampler`: three of its dimensions are used up.
-    pub fn emit(&self, sampler: &mut Sampler) -> Option<PhotonStart> {
-        self.emit_from(start_numbers(sampler))
-    }
-
-    /// The same from its numbers, each in [0, 1): for the light, two for the place, two for the direction.
+    /// A photon from its numbers, each in [0, 1): for the light, two for the place, two for the direction. `None` where this choice
+    /// has no light, which counts as a photon without flux.
     pub fn emit_from(&self, numbers: [f32; START_NUMBERS]) -> Option<PhotonStart> {
         let [u_choice, x, y, z, w] = numbers;
         let (u_position, u_direction) = (Vec2::new(x, y), Vec2::new(z, w));

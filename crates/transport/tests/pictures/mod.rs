@@ -62,8 +62,13 @@ impl Shot<'_> {
 
     /// The same, also of scenes with holes in their bodies.
     pub fn mean_of_any(&self, passes: Range<u32>) -> f64 {
+        self.mean_counted(passes, &mut Stats::default())
+    }
+
+    /// The same, and adds what was counted on the way to `stats`.
+    pub fn mean_counted(&self, passes: Range<u32>, stats: &mut Stats) -> f64 {
         let mut means = Moments::new();
-        self.render_any(self.full_frame(), passes, |_, samples| push_all(&mut means, samples));
+        stats.add(&self.render_any(self.full_frame(), passes, |_, samples| push_all(&mut means, samples)));
         means.mean()
     }
 

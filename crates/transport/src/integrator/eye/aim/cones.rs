@@ -5,7 +5,7 @@ use hyaline_sampling::warp;
 use smallvec::SmallVec;
 
 /// Versine of the narrowest cone: `f32` directions are no finer.
-const NARROWEST: f32 = 1e-5;
+pub(super) const NARROWEST: f32 = 1e-5;
 
 /// Directions about an axis.
 #[derive(Clone, Copy, Debug)]

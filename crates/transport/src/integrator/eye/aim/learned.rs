@@ -10,6 +10,7 @@
 //! each look-up makes a histogram of its nearest photons.
 
 use super::beam::{Beam, Incidence, Moments};
+use super::cones::NARROWEST;
 use super::lesson::Arrival;
 use hyaline_math::{Bounds, Vec3};
 use rayon::prelude::*;
@@ -89,9 +90,9 @@ impl Learned {
     pub(super) fn noisy(mut self, least: f32) -> Self {
         for Cell { sources, part, .. } in &mut self.cells {
             sources.retain(|Source { beam, share }| {
-                // Twice the versine is the chance of a matte surface, on the mean of all ways it may be turned.
+                // Twice the versine is the chance that a matte surface finds it, if it faces it.
                 let light = *part * share;
-                light * light > least * 2.0 * beam.core
+                light * light > least * 2.0 * beam.core.max(NARROWEST)
             });
         }
         self
@@ -286,5 +287,22 @@ mod tests {
         let learned = Learned::new(vec![same; 1000], MOST_SOURCES, dark);
         assert_eq!(learned.at(Vec3::ONE).map(|cell| cell.sources.len()), Some(1));
         assert!(Learned::new(vec![same; FEWEST - 1], MOST_SOURCES, dark).at(Vec3::ONE).is_none());
+    }
+
+    #[test]
+    fn what_is_faint_beside_other_light_makes_no_noise() {
+        let bright = |_: &Arrival, _: usize| 1e9;
+        let [alone, outshone] = [
+            Learned::new(arrivals(20_000), MOST_SOURCES, dark),
+            Learned::new(arrivals(20_000), MOST_SOURCES, bright),
+        ];
+        assert!(alone.cells.iter().all(|cell| cell.part == 1.0 && cell.irradiance > 0.0));
+        assert!(outshone.cells.iter().all(|cell| cell.part < 1e-3));
+        let sources =
+            |learned: Learned| learned.noisy(0.02).cells.iter().map(|cell| cell.sources.len()).sum::<usize>();
+        let all: usize = alone.cells.iter().map(|cell| cell.sources.len()).sum();
+        // Of the beams of two lines most are narrow.
+        assert!(sources(alone) > all / 2);
+        assert_eq!(sources(outshone), 0);
     }
 }

@@ -63,8 +63,6 @@ pub(in crate::integrator) struct Aim {
     learned: Learned,
     /// Of the light that caustics throw on other surfaces.
     thrown: Learned,
-    /// Chance of asking where no photons are known to have landed.
-    chance: f32,
 }
 
 impl Aim {
@@ -81,7 +79,7 @@ impl Aim {
             .collect();
         lamps.sort_by(|a, b| b.1.total_cmp(&a.1));
         lamps.truncate(MOST_LAMPS);
-        Self { objects, lamps, learned: Learned::default(), thrown: Learned::default(), chance: 1.0 }
+        Self { objects, lamps, learned: Learned::default(), thrown: Learned::default() }
     }
 
     /// The same with what photons show, which are traced for it, unless the settings say not to.
@@ -106,7 +104,7 @@ impl Aim {
             caustic + lamps(arrival, number)
         };
         let thrown = Learned::new(thrown, MOST_THROWN, direct).noisy(LEAST_NOISE);
-        Self { chance: if learned.is_empty() { 1.0 } else { LEAST_CHANCE }, learned, thrown, ..aim }
+        Self { learned, thrown, ..aim }
     }
 
     /// The cones that a surface tries; `None` where aim would not help.
@@ -114,7 +112,9 @@ impl Aim {
     /// - `wo`: where the path came from, unit.
     pub(super) fn at_surface(&self, vertex: &Vertex, wo: Vec3) -> Option<Cones> {
         let (p, n) = opaque_side(vertex, wo)?;
-        self.learned_cones(p, n).or_else(|| self.cones(p, self.chance, |view| view.rises_over(n)))
+        // Where photons are known to have landed elsewhere alone, there is little to ask for.
+        let chance = if self.learned.is_empty() { 1.0 } else { LEAST_CHANCE };
+        self.learned_cones(p, n).or_else(|| self.cones(p, chance, |view| view.rises_over(n)))
     }
 
     /// Toward where photons have come from, and now and then anywhere on polished objects: few photons don't show
